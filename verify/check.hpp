@@ -45,6 +45,12 @@ bool good(const Check& check);
 /// True where a check looks at a system or a bracket itself, whatever methods do with it.
 bool own_identity(const Check& check);
 
+/// What stands in the place of checks of a system whose formulas are all needed to make its motion: each is
+/// what it is, and none can contradict another. Such a system is not wrong, and nothing is left to be tried.
+Check nothing_stated(const std::string& system);
+/// True of that.
+bool states_nothing(const Check& check);
+
 nlohmann::json to_json(const Check& check);
 
 /// The plug-in with its parameters, and the system where there is one: "gauss stages=3 on kepler".
@@ -166,7 +172,7 @@ std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
 
 /// What checks come to.
 struct Verdict {
-  bool ok = false;       // something was checked, and all is as it should be
+  bool ok = false;       // all is as it should be, and something was checked or nothing is stated
   bool checked = false;  // something was
   std::string line;      // in a sentence: what holds, what was not judged and, first, whether all is well
 };

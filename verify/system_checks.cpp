@@ -190,6 +190,7 @@ std::vector<Check> check_system(const std::string& name, const std::shared_ptr<c
     for (Check& check : check_reversal(name, *motion, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::exact_flows))
     for (Check& check : check_flows(name, model, region.centres.front())) checks.push_back(std::move(check));
+  if (checks.empty()) checks.push_back(nothing_stated(name));
   for (Check& check : checks) check.parameters = parameters;
   return checks;
 }

@@ -58,6 +58,8 @@ def sentence(recording):
              if entry.get("max") is not None]
     if summary.get("error_max") is not None:
         said.append(f"the relative error of the state is at most {summary['error_max']:.2g}{at_rows(summary.get('error_rows'))}")
+    if (ended := summary.get("reference_ended")):
+        said.append(f"{'errors end early' if summary.get('error_max') is not None else 'there are no errors'}: {ended}")
     return "; ".join(said) + "."
 
 

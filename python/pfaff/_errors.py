@@ -10,6 +10,10 @@ class TraceError(TypeError):
     """A formula did something with a value that has none while it is recorded, such as comparing it."""
 
 
+class JumpWarning(UserWarning):
+    """A derivative was asked of a motion that may pass a jump of its rates, where the derivative of steps is not its own."""
+
+
 class NotConverged(RuntimeError):
     """A step did not converge, a linear system in it was singular, or no step meets the tolerance. `run` holds the samples up to
     there, or None."""

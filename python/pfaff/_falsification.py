@@ -96,6 +96,8 @@ class Falsifications(Judged[Falsification]):
         return rows
 
     def __repr__(self) -> str:
+        if not self._items:
+            return "no claim was tried: the method makes none that random systems could falsify. An order is verified by pfaff.verify; expected claim=, one that is to be tried"
         tried = sum(one.tried for one in self._items)
         line = f"{len(self)} claims on {tried} random systems: {len(self.failed)} falsified"
         return text_table(self._COLUMNS, self._rows()) + "\n" + line
@@ -123,7 +125,8 @@ def falsify(
         **parameters: of the method; without, those that verification runs through.
 
     Returns:
-        A row for each claim, with the counterexample where there is one.
+        A row for each claim, with the counterexample where there is one. None, and so not `ok`, where the method makes no claim
+        besides its order, which random systems do not try.
 
     Raises:
         InputError: an unknown method or claim.

@@ -13,6 +13,7 @@ from ._arguments import dictionary_or_none, function, text, unknown, whole
 from ._errors import InputError, NotConverged, RunFailed
 from ._numbers import text_of_number, texts_of_coordinates, texts_of_tolerances
 from ._objects import as_method, as_system
+from ._sensitivity import warn_of_jumps
 
 
 @dataclass(slots=True)
@@ -52,7 +53,8 @@ class Integration:
         step: the step, of either sign; with a tolerance the time between two states that are looked at.
         initial: the state, shape (dimension,); without it the system's own.
         t0: the time at the start.
-        tolerance: the relative error allowed in a step, for methods that choose their steps.
+        tolerance: for methods that choose their steps, the error allowed in a step in each coordinate, relative to the
+            largest size that it has had so far in the motion.
         absolute: absolute tolerances beside it, one number or one for each coordinate.
         scales: the size of a coordinate to which `tolerance` is relative: "motion", the largest that it has had so far, or
             "step", that at the ends of the step alone.
@@ -199,13 +201,18 @@ class Integration:
         """The state after `n` steps from here, and its derivative M[i, k] = d z_i / d z_k with respect to the state here.
 
         Derivatives go through every step, through the iteration of implicit ones too, so that M is the Jacobian of the
-        map that the method is. The integration stays where it is; methods that remember steps begin anew.
+        map that the method is, and not of the motion where that passes a jump of its rates (JumpWarning). The integration
+        stays where it is; methods that remember steps begin anew.
 
         >>> import numpy as np, pfaff
         >>> z, M = pfaff.Integration("harmonic-oscillator", "gauss", step=0.1).jacobian(10)
         >>> bool(abs(np.linalg.det(M) - 1) < 1e-13)
         True
         """
+        warn_of_jumps(self.system, "jacobian", 2)
+        return self._jacobian(n)
+
+    def _jacobian(self, n: int) -> tuple[np.ndarray, np.ndarray]:
         end, derivative = self._it.jacobian(whole(n, "n", 0))
         return end, derivative
 

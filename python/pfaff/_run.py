@@ -18,7 +18,7 @@ from ._errors import InputError, NotConverged, RunFailed
 from ._integration import Integration, attach, with_parameters
 from ._naming import kebab
 from ._objects import as_system
-from ._sensitivity import sensitivity_of
+from ._sensitivity import sensitivity_of, warn_of_jumps
 from ._tables import data_frame, html_table, text_table
 from ._watched import Watched
 
@@ -95,12 +95,16 @@ class Run:
     def jacobian(self) -> np.ndarray:
         """The derivative of the last state with respect to the first, shape (dimension, dimension), through all steps.
 
+        It is that of the map that the steps make. Where the motion passes a jump of its rates, as at a pfaff.where, that is not
+        the derivative of the motion, which a JumpWarning says of systems that have branches.
+
         InputError for a run whose method chose its steps.
         """
         if self._asked["tolerance"]:
             raise InputError("jacobian: expected a run with steps of one size")
+        warn_of_jumps(as_system(self.system), "jacobian", 3)  # a property that is kept is asked for by functools
         it = self._integration(self.system, self._initial, self._asked["precision"])
-        return it.jacobian(self.summary.get("completed", self._steps))[1]
+        return it._jacobian(self.summary.get("completed", self._steps))[1]
 
     def sensitivity(self, parameter: str) -> np.ndarray:
         """The derivative of the last state with respect to a parameter of the system, shape (dimension,), of the run as a whole.
@@ -110,7 +114,8 @@ class Run:
 
         It is a difference of two runs in quad precision, to both sides, of which 1e-10 of the parameter is the step: its error
         is about 1e-20 of the third derivative, and the result as good as one of derivatives through the steps. At an end
-        of the parameter's range it is one to a single side, of three runs, which is as good.
+        of the parameter's range it is one to a single side, of three runs, which is as good. It is of the map that the steps
+        make: of jumps of the rates the same holds as of the jacobian.
 
         >>> import pfaff
         >>> run = pfaff.run("kepler", "gauss", eccentricity=0.3, step=0.05, time=5)
@@ -123,6 +128,7 @@ class Run:
         """
         if self._asked["tolerance"]:
             raise InputError("sensitivity: expected a run with steps of one size")
+        warn_of_jumps(as_system(self.system), "sensitivity", 2)
         return sensitivity_of(as_system(self.system), parameter, self._end_of)
 
     def _end_of(self, system: Any) -> tuple[decimal.Decimal, ...]:
@@ -181,6 +187,8 @@ class Run:
     def _head(self) -> str:
         span = f"t = {self.t[0]:g} .. {self.t[-1]:g}, {len(self.t)} samples" if len(self.t) else "no samples"
         error = f", largest error {self.error_max:.3g}" if self.error_max is not None else ""
+        if "reference_ended" in self.summary:
+            error += f", {'errors end early' if error else 'no errors'}: {self.summary['reference_ended']}"
         ended = f"; {self.message}" if self.message else ""
         return f"run of {self.system.name} by {self.method.name}: {span}{error}{ended}"
 
@@ -241,7 +249,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     Args:
         system: a name, the path of a text model, or a pfaff.System.
         method: a name, the path of a table, a dictionary of coefficients, or a pfaff.Method.
-        step: the step, > 0; or `tolerance`, the relative error of a step of a method that chooses its steps.
+        step: the step, > 0; or `tolerance`, for a method that chooses its steps: the error of a step in each coordinate,
+            relative to the largest size that the coordinate has had so far in the motion.
         time: the duration; a negative one goes back in time.
         every: the steps between two samples; 0 chooses for about a thousand samples.
         initial: the state, shape (dimension,); without it the system's own.

@@ -1,6 +1,7 @@
 """Derivatives with respect to a parameter, as differences in quad precision."""
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
@@ -8,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._arguments import unknown
-from ._errors import InputError
+from ._errors import InputError, JumpWarning
 
 if TYPE_CHECKING:
     from ._system import System
@@ -21,6 +22,16 @@ _DIFFERENCES: tuple[dict[int, Fraction], ...] = (
     {0: Fraction(-3, 2), 1: Fraction(2), 2: Fraction(-1, 2)},
     {0: Fraction(3, 2), -1: Fraction(-2), -2: Fraction(1, 2)},
 )
+
+
+def warn_of_jumps(system: System, what: str, depth: int) -> None:
+    """Warns whoever asked for a derivative, `depth` calls above, of rates that may jump along the motion."""
+    if system.model.may_jump:
+        warnings.warn(
+            f"{what}: the formulas of {system.name} have branches (pfaff.where or abs) that the time or the state chooses; where the motion "
+            "passes from one to another and its rates jump, this is the derivative of the map that the steps make, and not of the motion. "
+            "Expected rates that do not jump there, or differences of motions",
+            JumpWarning, stacklevel=depth + 1)
 
 
 def sensitivity_of(system: System, parameter: Any, end_of: Callable[[System], Sequence[Any]]) -> np.ndarray:

@@ -12,6 +12,7 @@ import numpy as np
 from . import _pfaff
 from ._arguments import real_array, shown, whole, yes_or_no
 from ._errors import InputError, NotConverged, RunFailed
+from ._halving import FEWEST_STEPS, integration_from, states_at, steps_that_meet
 from ._integration import Integration
 from ._method import Method
 from ._numbers import float_of_number, texts_of_coordinates
@@ -22,10 +23,6 @@ from ._tracing import flat, place_of
 if TYPE_CHECKING:
     from scipy.integrate._ivp.ivp import OdeResult
 
-# The first of the numbers of steps that are tried.
-_FEWEST_STEPS = 16
-# A step is chosen by comparing states at times that are spread evenly: at all of the steps, up to so many numbers.
-_COMPARED = 2**20
 # The steps that may be taken where nothing is said, fewer of fields of more operations than these: some minutes' work.
 _MOST_STEPS, _OPERATIONS = 2**24, 256
 
@@ -39,9 +36,10 @@ def solve_ivp(
     """Solves y' = fun(t, y), y(t_span[0]) = y0, as scipy.integrate.solve_ivp does, by any method of Pfaff.
 
     Methods with fixed steps keep one step from beginning to end, on which the structure that they keep rests. Without
-    `step` it is chosen: it is halved until the error, estimated from three runs, meets the tolerances. A state at a time of
-    `t_eval` between two steps is that after one shorter step from the last of them, beside the integration, which goes on
-    in its own steps. Methods that choose their steps take `rtol` and `atol` as SciPy's do.
+    `step` it is chosen: it is halved until the error, estimated from three runs, meets the tolerances, and a run in other
+    steps agrees, since a jump of fun may escape steps that are halves of each other. A state at a time of `t_eval` between
+    two steps is that after one shorter step from the last of them, beside the integration, which goes on in its own steps.
+    Methods that choose their steps take `rtol` and `atol` as SciPy's do.
 
     Args:
         fun: fun(t, y, *args) gives the rates, shape (n,). It is called a few times, with numbers that record what is done
@@ -86,11 +84,11 @@ def solve_ivp(
     times = None if t_eval is None else _times(t_eval, begin, end)
     relative, absolute = _tolerances(rtol, atol, len(state))
     size = None if step is None else float_of_number(step, "step", "a size above 0", above=0)
-    most = _most_steps(system) if most_steps is None else whole(most_steps, "most_steps", _FEWEST_STEPS)
+    most = _most_steps(system) if most_steps is None else whole(most_steps, "most_steps", FEWEST_STEPS)
     if chosen.adaptive and size is None:
         return _adaptive(result_type, system, chosen, state, begin, end, times, relative, absolute, most)
     if size is None:
-        count = _steps(system, chosen, state, begin, end, relative, absolute, most)
+        count = steps_that_meet(system, chosen, state, begin, end, relative, absolute, most)
     else:
         wanted = abs(end - begin) / size * (1 - 1e-12)
         if wanted > most:
@@ -132,6 +130,8 @@ def _times(t_eval: Sequence[float], begin: float, end: float) -> np.ndarray:
 
 def _tolerances(rtol: float, atol: float | Sequence[float], size: int) -> tuple[float, np.ndarray]:
     relative, expected = float_of_number(rtol, "rtol", "a number above 0", above=0), f"a number >= 0, or {size} of them"
+    if relative < np.finfo(float).eps:
+        raise InputError(f"rtol: {relative} is below round-off, which is {np.finfo(float).eps:.3g}; expected at least that")
     absolute = real_array(atol, "atol", expected)
     if absolute.ndim > 1 or absolute.size not in (1, size) or not (np.isfinite(absolute) & (absolute >= 0)).all():
         raise InputError(f"atol: expected {expected}, got {shown(atol)}")
@@ -190,10 +190,6 @@ def _system_of(fun: Callable[..., Any], state: np.ndarray, extra: tuple[Any, ...
     return type("SolveIvp", (System,), members)()
 
 
-def _integration(system: System, method: Method, state: np.ndarray, begin: float, **how: Any) -> Integration:
-    return Integration(system, method, initial=[float(x) for x in state], t0=begin, **how)
-
-
 def _most_steps(system: System) -> int:
     """The steps that may be taken where nothing is said."""
     formulas = _pfaff.formulas_of_problems()["field"][1]
@@ -201,48 +197,11 @@ def _most_steps(system: System) -> int:
     return max(1024, _MOST_STEPS * _OPERATIONS // max(_OPERATIONS, operations))
 
 
-def _steps(
-    system: System, method: Method, state: np.ndarray, begin: float, end: float, rtol: float, atol: np.ndarray, most: int
-) -> int:
-    """The least number of steps, a power of two times _FEWEST_STEPS, whose estimated error meets the tolerances.
-
-    Where what two runs differ by becomes r times as much whenever the step is halved, the error of the second is r/(1 - r)
-    times that. The order p of the method lets expect 2^-p for r, which jumps and kinks of a field and stiffness raise, so
-    that r is measured, and taken as one half until it is.
-    """
-    order = method.order(system)
-    if order < 1:
-        raise InputError(f"step: expected one, because {method.name} claims no order on {system.name} by which it could be chosen")
-    compared = 2 ** int(math.log2(max(_FEWEST_STEPS, _COMPARED // len(state))))
-    count, before, difference, failure = _FEWEST_STEPS, None, None, None
-    while count <= most:
-        integration = _integration(system, method, state, begin, step=(end - begin) / count)
-        try:
-            now, failure = integration.steps(count, every=max(1, count // compared)).y, None
-        except (NotConverged, RunFailed) as error:
-            now, failure = None, error
-        last, difference = difference, None
-        if now is not None and before is not None:
-            same = now[1::2] if len(now) > len(before) else now  # those at the times of the run before
-            with np.errstate(divide="ignore", invalid="ignore"):
-                difference = float(np.nan_to_num(np.abs(same - before) / (atol + rtol * np.abs(same)), posinf=math.inf).max())
-            ratio = 0.5 if last is None else max(2.0**-order, min(difference / last if last > 0 else 0.5, 0.7))
-            if difference * ratio / (1 - ratio) <= 1:
-                return count
-        count, before = 2 * count, now
-    tried = f"step of {method.name} down to {abs(end - begin) / (count // 2):.3g}"
-    if failure is None:
-        raise RunFailed(f"solve_ivp: no {tried} meets rtol and atol; expected larger ones, step=, the size that is to be taken, or a larger most_steps=")
-    raise RunFailed(
-        f"solve_ivp: {failure} with every {tried}; expected a t_span that ends before, another method, or step=, with which there are the "
-        "states up to the failure", failure.run)
-
-
 def _fixed(
     result_type: Any, system: System, method: Method, state: np.ndarray, begin: float, end: float, times: np.ndarray | None, count: int
 ) -> OdeResult:
     size = (end - begin) / count
-    integration = _integration(system, method, state, begin, step=size)
+    integration = integration_from(system, method, state, begin, step=size)
     if times is None:
         message = ""
         try:
@@ -251,24 +210,13 @@ def _fixed(
             outcome, message = error.run, str(error)
         t, y = np.concatenate([[begin], outcome.t]), np.concatenate([state[None, :], outcome.y])
         return _result(result_type, t, y, message, integration, size)
-    reached, rows, message = [], [], ""
-    near = 8 * np.finfo(float).eps * max(abs(begin), abs(end))  # what round-off makes of times
-    for time in times:
-        whole = min(count, math.floor((time - begin) / size * (1 + 1e-12)))
-        try:
-            integration.steps(whole - integration.steps_taken)
-            row, rest = integration.state, time - (begin + whole * size)
-            if abs(rest) > near:
-                beside = integration.beside(row)
-                beside.go_on_from(row, t0=begin + whole * size, step=rest)
-                beside.steps(1)
-                row = beside.state
-        except (NotConverged, RunFailed) as error:
-            message = str(error)
-            break
-        reached.append(time)
-        rows.append(row)
-    return _result(result_type, np.array(reached), np.array(rows).reshape(len(rows), len(state)), message, integration, size)
+    rows, message = [], ""
+    try:
+        for row in states_at(integration, times, begin, size, count):
+            rows.append(row)
+    except (NotConverged, RunFailed) as error:
+        message = str(error)
+    return _result(result_type, times[: len(rows)], np.array(rows).reshape(len(rows), len(state)), message, integration, size)
 
 
 def _adaptive(
@@ -279,7 +227,7 @@ def _adaptive(
         raise InputError(f"rtol: expected a number in (0, 1] for {method.name}, got {rtol}")
     if times is None:
         times = np.linspace(begin, end, 101)
-    integration = _integration(system, method, state, begin, step=end - begin, tolerance=rtol, absolute=[float(x) for x in atol], scales="step")
+    integration = integration_from(system, method, state, begin, step=end - begin, tolerance=rtol, absolute=[float(x) for x in atol], scales="step")
     integration._it.allowed = most
     reached, rows, message = [], [], ""
     for time in times:
@@ -289,8 +237,9 @@ def _adaptive(
         except (NotConverged, RunFailed) as error:
             message = str(error)
             if integration._it.allowed == 0:
-                message = (f"{most} steps were taken by t = {integration.time:.10g}, as happens at a singularity; expected a t_span that "
-                           "ends before, larger rtol and atol, or most_steps=, how many may be taken")
+                message = (f"{most} steps were taken by t = {integration.time:.10g}, as happens at a singularity and, with explicit methods, where the "
+                           "motion is stiff; expected a t_span that ends before, larger rtol and atol, an implicit method, or most_steps=, how many "
+                           "may be taken")
             break
         reached.append(time)
         rows.append(integration.state)

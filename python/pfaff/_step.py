@@ -18,7 +18,7 @@ from ._errors import InputError
 from ._numbers import noted_constants, text_of_constant, text_of_number, text_of_setting
 from ._tracing import argument_names, array_of, flat, place_of, recorded
 
-# Formulas that a problem may offer: name -> (right-hand sides that it counts as, the facets that offer it, size).
+# Formulas that a problem may offer: name -> (right-hand sides that it counts as, the facets that it belongs to, size).
 FORMULAS = _pfaff.formulas_of_problems()
 
 
@@ -26,8 +26,10 @@ class Problem:
     """What a step is given of the system that it steps on.
 
     A formula of the system is called by its name, with a time and an array: problem.field(t, z) gives dz/dt, shape
-    (dimension,); problem.force(t, q) and problem.velocity(t, p) the two halves of a separable system. What there is
-    besides is what the facets offer that the method needs: `pfaff list facets`.
+    (dimension,); problem.force(t, q) and problem.velocity(t, p) the two halves of a separable system, or, without its
+    friction, of a conformal one, whose rate of friction is problem.damping; problem.applied_force(t, z) the forces beside
+    the energy. What there is besides is what belongs to the facets that the method needs: `pfaff list facets`. A formula
+    of two times has the second one behind its numbers.
     """
 
     def __init__(self, system: _pfaff.Model, allowed: frozenset[str], evaluate: Callable[[str, Any, Any], np.ndarray]) -> None:
@@ -38,14 +40,23 @@ class Problem:
         """The number of coordinates."""
         return self._system.dimension
 
+    @property
+    def damping(self) -> Any:
+        """The rate nu of the friction of a conformal system, p' = -V_q - nu p: a number of the step's own kind."""
+        self._require("damping", ["conformal"])
+        return self._evaluate("damping", 0, [])[0]
+
+    def _require(self, name: str, facets: list[str]) -> None:
+        if not self._allowed.intersection(facets):
+            raise InputError(f"problem.{name}: expected {'one of ' if len(facets) > 1 else ''}{', '.join(facets)} among what the method needs, needs=[...]")
+
     def __getattr__(self, name: str) -> Callable:
         if name.startswith("_"):
             raise AttributeError(name)
         if name not in FORMULAS:
-            raise InputError("problem: " + unknown("formula", name, [key for key, (_, facets, _) in FORMULAS.items() if facets]))
+            raise InputError("problem: " + unknown("formula", name, [*FORMULAS, "damping"]))
         _, facets, writes = FORMULAS[name]
-        if not self._allowed.intersection(facets):
-            raise InputError(f"problem.{name}: expected one of {', '.join(facets)} among what the method needs, needs=[...]")
+        self._require(name, facets)
 
         def formula(t: Any, x: Any) -> Any:
             values = self._evaluate(name, t, x)
@@ -112,6 +123,8 @@ class StepFunction:
 
             def evaluate(name: str, t: Any, x: Any) -> np.ndarray:
                 nonlocal fields
+                if name == "damping":
+                    return array_of([_pfaff.constant(system.damping, name)])
                 fields += FORMULAS[name][0]
                 return array_of(_pfaff.formula_of(system, name).record(t, flat(x, f"argument of {name}")))
 

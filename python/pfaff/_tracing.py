@@ -4,6 +4,7 @@ from __future__ import annotations
 import functools
 import inspect
 import os
+import re
 import sys
 import types
 from collections.abc import Callable, Mapping
@@ -16,6 +17,25 @@ from ._arguments import shown, unknown
 from ._errors import InputError, TraceError
 from ._numbers import text_of_constant
 
+# NumPy's functions that formulas may call, and what takes the place of others.
+_FUNCTIONS = ("sqrt", "exp", "log", "sin", "cos", "tan", "arcsin", "arccos", "arctan", "arctan2", "sinh", "cosh", "tanh", "hypot", "abs")
+_INSTEAD = {
+    "expm1": "numpy.exp(x) - 1",
+    "log1p": "numpy.log(1 + x)",
+    "exp2": "2**x",
+    "log2": "numpy.log(x) / numpy.log(2)",
+    "log10": "numpy.log(x) / numpy.log(10)",
+    "cbrt": "x ** fractions.Fraction(1, 3), for x > 0",
+    "arcsinh": "numpy.log(x + numpy.sqrt(x**2 + 1))",
+    "arccosh": "numpy.log(x + numpy.sqrt(x**2 - 1))",
+    "arctanh": "numpy.log((1 + x) / (1 - x)) / 2",
+    "degrees": "x * 180 / numpy.pi",
+    "radians": "x * numpy.pi / 180",
+    "deg2rad": "x * numpy.pi / 180",
+    "rad2deg": "x * 180 / numpy.pi",
+    "fabs": "abs(x)",
+    "signbit": "pfaff.where(-x, 1, 0)",
+}
 # Code that stands between a user's formula and the numbers in it.
 _OWN = (os.path.dirname(os.path.abspath(__file__)) + os.sep, os.path.dirname(os.path.abspath(np.__file__)) + os.sep, "<__array_function__")
 
@@ -105,10 +125,7 @@ def recorded(inputs: int, formula: Callable[[Any, list], list], what: str) -> _p
         except (TypeError, AttributeError) as error:
             if isinstance(error, TraceError) or not _refused_by_numpy(error):
                 raise
-            raise TraceError(
-                f"{what}: NumPy cannot do this with numbers that are recorded ({error}); expected "
-                "+ - * / **, functions such as numpy.sin, pfaff.where, and pfaff.solve for linear systems and inverses"
-            ) from error
+            raise TraceError(f"{what}: {_not_recorded(error)}") from error
         finally:
             recording.close()
     if not tapes[0].same(tapes[1]):
@@ -117,6 +134,23 @@ def recorded(inputs: int, formula: Callable[[Any, list], list], what: str) -> _p
             "that depends on its arguments alone, since it is recorded once"
         )
     return tapes[0]
+
+
+def _not_recorded(error: TypeError | AttributeError) -> str:
+    """What NumPy cannot do with numbers that are recorded, and what to write instead."""
+    missing = re.search(r"no callable (\w+) method|^ufunc '(\w+)'", str(error))
+    name = str(error.name) if isinstance(error, AttributeError) else missing[1] or missing[2] if missing else ""
+    if name in _INSTEAD:
+        return f"numpy.{name} cannot be recorded; expected {_INSTEAD[name]}"
+    if name in _FUNCTIONS:
+        return f"numpy.{name} cannot be recorded with a first argument that is a plain number; expected one that is recorded, such as 1.0 + 0 * x"
+    if name and isinstance(getattr(np, name), np.ufunc):
+        return f"numpy.{name} cannot be recorded; expected {_expected()}"
+    return f"NumPy cannot do this with numbers that are recorded ({error}); expected {_expected()}"
+
+
+def _expected() -> str:
+    return f"+ - * / **, numpy's {', '.join(_FUNCTIONS)}, pfaff.where, and pfaff.solve for linear systems and inverses"
 
 
 def _refused_by_numpy(error: TypeError | AttributeError) -> bool:

@@ -1,6 +1,9 @@
 #include <pfaff/python/src/called_method.hpp>
 
+#include <map>
+
 #include <pfaff/python/src/objects.hpp>
+#include <pfaff/python/src/offered_formulas.hpp>
 #include <pfaff/python/src/scalars.hpp>
 
 namespace py = pybind11;
@@ -12,16 +15,18 @@ namespace {
 template <class P>
 struct Formulas {
   const P* problem = nullptr;
-  py::array operator()(const std::string& name, const py::object& time, const py::object& arguments) const;
+  std::map<Formula, Evaluator<Scalar<P>>> parts;  // of formulas that the problem has no members for
+  py::array operator()(const std::string& name, const py::object& time, const py::object& arguments);
 };
 
-// Evaluates the formula of a row, where the problem has a member of its name.
+// Evaluates the formula of a row by the problem's member of its name, which counts it; false where there is
+// none, as of formulas that are parts of facets.
 template <class P, class T>
-void evaluate(const P& p, Formula formula, const T& t, In<T> x, Out<T> out) {
+bool evaluated(const P& p, Formula formula, const T& t, In<T> x, Out<T> out) {
   switch (formula) {
-#define PFAFF_DERIVED(name, ...)                                      \
-  case Formula::name:                                                 \
-    if constexpr (requires { p.name(t, x, out); }) p.name(t, x, out); \
+#define PFAFF_DERIVED(name, ...)                                                   \
+  case Formula::name:                                                              \
+    if constexpr (requires { p.name(t, x, out); }) return p.name(t, x, out), true; \
     break;
 #define PFAFF_BRACKET(name, ...) PFAFF_DERIVED(name)
 #define PFAFF_FORMULA(name, result, ...)                 \
@@ -29,33 +34,39 @@ void evaluate(const P& p, Formula formula, const T& t, In<T> x, Out<T> out) {
     if constexpr (requires {                             \
                     { p.name(t, x) } -> std::same_as<T>; \
                   })                                     \
-      out[0] = p.name(t, x);                             \
+      return out[0] = p.name(t, x), true;                \
     else if constexpr (requires { p.name(t, x, out); })  \
-      p.name(t, x, out);                                 \
+      return p.name(t, x, out), true;                    \
     break;
 #include <pfaff/core/facets/formula_rows.hpp>
     default:
       break;
   }
+  return false;
 }
 
 template <class P>
 py::array Formulas<P>::operator()(const std::string& name, const py::object& time,
-                                  const py::object& arguments) const {
+                                  const py::object& arguments) {
   using T = Scalar<P>;
   if (problem == nullptr)
     throw InputError("problem: its integration has ended; expected that it is not kept");
   const Model& model = *problem->model();
-  for (const FormulaRow& row : formula_table) {
-    if (row.name != name || !model.facets().meets(row.traits.offered_by)) continue;
-    const auto tape = model.tape(row.formula);
-    std::vector<T> x(static_cast<std::size_t>(tape->inputs)), out(tape->outputs.size());
-    write_numbers(arguments, std::span<T>(x), name.c_str());
-    const T t = scalar_from<T>(time, ("time of " + name).c_str());
-    evaluate(*problem, row.formula, t, In<T>(x), Out<T>(out));
-    return array_of(std::span<const T>(out));
+  if (name == "damping") {
+    const T rate(model.damping());
+    return array_of(std::span<const T>(&rate, 1));
   }
-  throw InputError("system " + model.name() + " offers no " + name);
+  const FormulaRow& row = offered_formula(model, name);
+  const auto tape = model.tape(row.formula);
+  std::vector<T> x(static_cast<std::size_t>(tape->inputs)), out(tape->outputs.size());
+  write_numbers(arguments, std::span<T>(x), name.c_str());
+  const T t = scalar_from<T>(time, ("time of " + name).c_str());
+  if (!evaluated(*problem, row.formula, t, In<T>(x), Out<T>(out))) {
+    Evaluator<T>& own = parts[row.formula];
+    if (own.call == nullptr) own = make_evaluator<T>(problem->model(), row.formula);
+    own.call(own.context, t, x.data(), out.data());
+  }
+  return array_of(std::span<const T>(out));
 }
 
 // The method as the loop over steps sees it.

@@ -1,6 +1,8 @@
 // Integrations: `_pfaff.Integration`.
 #include <pybind11/stl.h>
 
+#include <limits>
+
 #include <pfaff/python/src/arrays.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/interruption.hpp>
@@ -32,6 +34,11 @@ std::unique_ptr<Stepping> stepping_of(const PySystem& system, const PyMethod& me
   start.t0 = number_of(text("t0"), "t0");
   if (const std::string tolerance = text("tolerance"); !tolerance.empty()) {
     start.tolerance = number_of(tolerance, "tolerance");
+    const Quad round_off = asked["quad"].cast<bool>() ? std::numeric_limits<Quad>::epsilon()
+                                                      : Quad(std::numeric_limits<double>::epsilon());
+    if (start.tolerance.quad() > 0 && start.tolerance.quad() < round_off)
+      throw InputError("tolerance: " + tolerance + " is below round-off, which is " +
+                       to_string(round_off, 3) + "; expected at least that");
     check_tolerances(*start.method, *start.model, start.tolerance.quad(), {});  // where it is 0, too
   }
   start.absolute = numbers_of(texts("absolute"), "absolute");

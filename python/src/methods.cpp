@@ -8,6 +8,7 @@
 #include <pfaff/python/src/called_method.hpp>
 #include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/objects.hpp>
+#include <pfaff/python/src/offered_formulas.hpp>
 #include <pfaff/python/src/stepping.hpp>
 #include <pfaff/runs/asked_for.hpp>
 #include <pfaff/runs/tape_method.hpp>
@@ -88,21 +89,20 @@ PyMethod table_method(const std::string& path, const Assignments& parameters) {
   return {{both, made.get()}};
 }
 
-// How many right-hand sides a formula counts as, and the facets that offer it.
+// How many right-hand sides a formula counts as, the facets that it belongs to, and its size; of all formulas
+// of facets.
 py::dict formulas_of_problems() {
   py::dict rows;
   for (const FormulaRow& row : formula_table)
-    rows[py::str(std::string(row.name))] = py::make_tuple(
-        row.traits.counts == Counts::field ? 1 : 0, names_of(row.traits.offered_by), std::string(row.writes));
+    if (const auto names = names_of(facets_of(row)); !names.empty())
+      rows[py::str(std::string(row.name))] =
+          py::make_tuple(row.traits.counts == Counts::field ? 1 : 0, names, std::string(row.writes));
   return rows;
 }
 
 // The tape of a formula that a problem offers.
 PyTape formula_of(const PySystem& system, const std::string& name) {
-  for (const FormulaRow& row : formula_table)
-    if (row.name == name && system.model->facets().meets(row.traits.offered_by))
-      return {system.model->tape(row.formula)};
-  throw InputError("system " + system.model->name() + " offers no " + name);
+  return {system.model->tape(offered_formula(*system.model, name).formula)};
 }
 
 // The model that a method steps on, the usual motion of one with constraints. InputError where it refuses

@@ -87,7 +87,8 @@ constexpr const char* no_truth =
     "while, min, max); expected pfaff.where(x, a, b), which is a where x > 0 and b elsewhere";
 constexpr const char* no_comparison =
     "a formula is recorded once and has no values meanwhile, so that it cannot compare them; expected "
-    "pfaff.where(x - y, a, b), which is a where x > y and b elsewhere";
+    "pfaff.where(x - y, a, b), which is a where x > y and b elsewhere, also for numpy.sign(x): "
+    "pfaff.where(x, 1, -1)";
 constexpr const char* no_float =
     "a formula is recorded once and has no values meanwhile, so that it cannot become a float (math.sin and "
     "others of the module math need one); expected numpy's functions, such as numpy.sin";

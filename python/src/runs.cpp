@@ -247,7 +247,14 @@ class RunInProgress {
       columns["step"] = std::move(steps);
       for (std::size_t i = 0; i < table.columns.size(); ++i) {
         py::list cells;
-        for (const MeasuredTable::Line& line : table.lines) cells.append(cell_of(line.cells[i]));
+        const bool texts = table.columns[i].kind == Column::Kind::text;
+        for (const MeasuredTable::Line& line : table.lines) {
+          const Cell& cell = line.cells[i];
+          if (texts && !std::holds_alternative<std::string>(cell))
+            cells.append(py::none());  // one that has nothing to say, as of a quantity without a drift
+          else
+            cells.append(cell_of(cell));
+        }
         columns[py::str(table.columns[i].name)] = std::move(cells);
       }
       result[py::str(measures_[k]->descriptor().name)] = py::make_tuple(columns, table.ended);

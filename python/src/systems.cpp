@@ -2,6 +2,8 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+
 #include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/interruption.hpp>
@@ -43,6 +45,25 @@ std::vector<std::string> facets_of(const PySystem& system) {
   return names;
 }
 
+// Whether a tape has a selection that time or the state decides; what depends on neither stands before
+// time_begin.
+bool selects(const Tape& tape) {
+  return std::any_of(tape.code.begin(), tape.code.end(), [&](const Instruction& i) {
+    return i.operation == Operation::select && i.a >= tape.time_begin;
+  });
+}
+
+// Whether the motion may pass from one branch of its formulas to another: energies, fields and constraints as
+// they were written, since what follows from them has their selections.
+bool may_jump(const PySystem& system) {
+  for (const FormulaRow& row : formula_table) {
+    const Formula f = row.formula;
+    if (f == Formula::invariants || f == Formula::exact_solution || f == Formula::reversal) continue;
+    if (system.model->given(f) && selects(*system.model->tape(f))) return true;
+  }
+  return false;
+}
+
 py::list parameters_of_plugin(const Plugin& plugin, const Assignments& defaults) {
   py::list list;
   for (const Parameter& p : plugin.parameters()) {
@@ -65,6 +86,13 @@ void bind_systems(py::module_& module) {
       .def_property_readonly("exact_initial", &exact_initial_of)
       .def_property_readonly("parameters", [](const PySystem& s) { return s.model->parameters(); })
       .def_property_readonly("facets", &facets_of)
+      .def_property_readonly("may_jump", &may_jump)
+      .def_property_readonly("damping",
+                             [](const PySystem& s) {
+                               const auto& rate = s.model->source().damping;
+                               if (!rate) throw InputError("system " + s.model->name() + " has no damping");
+                               return to_string(*rate);
+                             })
       .def_property_readonly("time_unit", [](const PySystem& s) { return s.model->time_unit(); })
       .def_property_readonly("formulation", [](const PySystem& s) { return s.model->source().formulation; })
       .def_property_readonly("constraint_names",

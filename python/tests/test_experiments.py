@@ -132,3 +132,10 @@ def test_an_interrupted_experiment_is_resumed(tmp_path):
             pfaff.compare(long, out=out, timing=0.3)
     short = pfaff.compare(long, out=tmp_path, timing=0.005)
     assert short.ok and short.runs == 8
+
+
+def test_a_system_of_python_is_shown_by_its_name():
+    swing = pfaff.system(coordinates=["q", "p"], initial=[1, 0], name="swing")(lambda q, p: p**2 / 2 - np.cos(q))
+    case = {"name": "free", "system": swing, "time": 1, "steps": [0.1]}
+    text = repr(pfaff.compare({"title": "A swing", "method": [{"label": "Verlet", "integrator": "verlet"}], "case": [case]}, timing=0.01))
+    assert "free (swing, T = 1)" in text and ".toml" not in text

@@ -290,3 +290,11 @@ def test_what_a_handler_of_ones_own_raises_passes_with_the_samples(work):
         timer.join()
         signal.signal(signal.SIGINT, before)
     assert len(caught.value.run.t) > 0
+
+
+def test_a_tolerance_below_round_off_is_refused():
+    with pytest.raises(pfaff.InputError, match="^tolerance: 1e-16 is below round-off, which is 2.22e-16; expected at least that$"):
+        pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance=1e-16)
+    with pytest.raises(pfaff.InputError, match="^tolerance: 1e-40 is below round-off, which is 1.93e-34; expected at least that$"):
+        pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance="1e-40", precision="quad")
+    pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance="1e-30", precision="quad").steps(1)

@@ -1,6 +1,7 @@
 """Runs: samples, drift, errors, gradients and measures, and what is left where a run ends early."""
 import math
 import tomllib
+import warnings
 
 import numpy as np
 import pytest
@@ -297,3 +298,39 @@ def test_errors_are_not_measured_against_another_motion(size, rate, words):
     with pytest.raises(pfaff.InputError, match=words):
         pfaff.run(said, "gauss", step=0.05, time=20)
     assert pfaff.run(said, "gauss", step=0.05, time=20, reference=None).error is None
+
+
+def test_a_run_says_how_far_its_reference_reaches(tmp_path):
+    riccati = pfaff.system(coordinates=["x"], initial=[1], formula="field", name="riccati")(lambda x: [x**2])
+    run = pfaff.run(riccati, "rk4", step=0.3, time=1.2, reference="solution", out=tmp_path / "out")  # x = 1/(1 - t)
+    assert "largest error 0.107, errors end early: the solution was found up to t = 1" in repr(run) and "errors end early" in run._repr_html_()
+    assert "early" not in repr(pfaff.run(riccati, "rk4", step=0.3, time=0.6, reference="solution"))
+
+
+def jumping(t, c):
+    return [pfaff.where(t - c, 1, 0)]
+
+
+def test_derivatives_of_what_may_jump_come_with_a_warning():
+    switched = pfaff.system(coordinates=["q", "p"], initial=[1, 0], applied_force=jumping, name="switched")(lambda q, p, c=1.2345: p**2 / 2 + q**2 / 2)
+    run = pfaff.run(switched, "rk4", step=0.1, time=2)
+    for ask in (lambda: run.jacobian, lambda: run.sensitivity("c"), lambda: pfaff.Integration(switched, "rk4", step=0.1).jacobian(3)):
+        with pytest.warns(pfaff.JumpWarning, match="the formulas of switched have branches") as warned:
+            ask()
+        assert len(warned) == 1 and warned[0].filename == __file__
+    # Branches that nothing but a parameter chooses are passed by no motion.
+    chosen = pfaff.system(coordinates=["q", "p"], initial=[1, 0], name="chosen")(lambda q, p, k=2: p**2 / 2 + pfaff.where(k - 1, k, 1) * q**2 / 2)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for system in (chosen, "kepler", "pendulum"):
+            assert pfaff.run(system, "rk4", step=0.1, time=0.5).jacobian.shape[0] >= 2
+
+
+def test_a_measure_has_nothing_for_the_class_of_a_quantity_that_may_do_anything():
+    members = dict(coordinates=["q", "p"], initial=[1, 0], formula="field", behaviours={"place": "free"})
+    alone = pfaff.system(**members, name="alone", invariants={"place": lambda q: q})(lambda q, p: [p, -q])
+    beside = pfaff.system(**members, name="beside", invariants={"place": lambda q: q, "energy": lambda q, p: q**2 + p**2})(lambda q, p: [p, -q])
+    for system, others in ((alone, []), (beside, ["bounded"])):
+        table = pfaff.run(system, "gauss", step=0.1, time=10, measures=["drift"]).measures["drift"]
+        assert list(table["class"])[0] is None and list(table["evidence"])[0] is None and math.isnan(table["max"][0])
+        assert len(table["class"]) == 1 + len(others)

@@ -79,7 +79,7 @@ def test_where_no_step_is_found_it_is_said_what_to_give(method):
     with pytest.raises(pfaff.RunFailed, match=f"at t = [01].* with every step of {method} down to .*expected a t_span that ends before, .*or step=") as failed:
         pfaff.solve_ivp(lambda t, y: [y[0] ** 2], (0, 2), [1.0], method, most_steps=2**10)  # the pole of y' = y^2 is at t = 1
     assert "\n" not in str(failed.value) and 0.8 < failed.value.run.t[-1] < 1.1
-    with pytest.raises(pfaff.RunFailed, match=f"^solve_ivp: no step of {method} down to 0.0977 meets rtol and atol; expected larger ones, step=, .*or a larger most_steps="):
+    with pytest.raises(pfaff.RunFailed, match=f"^solve_ivp: no step of {method} down to 0.0977 meets rtol and atol; expected larger ones, calls that end and begin where the field jumps, step=, .*or a larger most_steps="):
         pfaff.solve_ivp(oscillator, (0, 100), [1, 0], method, rtol=1e-12, atol=1e-12, args=(3.0,), most_steps=2**10)
 
 
@@ -89,6 +89,7 @@ def test_a_motion_that_never_gets_on_ends_with_its_steps():
     result = pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 3), [1.0], "taylor", most_steps=20000)
     assert not result.success and result.status == -1 and 0.4 < result.t[-1] < 0.7 and result.nfev <= 20000
     assert result.message.startswith("20000 steps were taken by t = 0.5") and "most_steps=" in result.message
+    assert "as happens at a singularity and, with explicit methods, where the motion is stiff; expected" in result.message
     times = pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 3), [1.0], "taylor", np.linspace(0, 3, 7), most_steps=20000)
     assert list(times.t) == [0, 0.5] and not times.success
     assert pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 0.4), [1.0], "taylor", most_steps=20000).success
@@ -103,6 +104,48 @@ def test_the_error_is_as_asked_where_the_order_is_not_that_of_the_method(method,
     assert np.abs(jump.y[0] - (np.abs(jump.t - 1 / 3) - 1 / 3)).max() < tolerance
     fast = pfaff.solve_ivp(lambda t, y: [-1000 * y[0]], (0, 1), [1.0], method, rtol=tolerance, atol=tolerance, **settings)
     assert np.abs(fast.y[0] - np.exp(-1000 * fast.t)).max() < tolerance
+
+
+def switched(switch):
+    return lambda t, y: [y[1], -y[0] + pfaff.where(t - switch, 1, 0)]
+
+
+def switched_motion(t, switch):
+    return np.where(t < switch, np.cos(t), np.cos(t) + 1 - np.cos(t - switch))
+
+
+@pytest.mark.parametrize("method, settings", [("gauss", {}), ("gauss", {"stages": 4}), ("rk4", {}), ("implicit-midpoint", {})])
+def test_no_step_is_taken_that_meets_a_jump_by_chance(method, settings):
+    tolerance, shares = 1e-4, []
+    for switch in np.random.default_rng(5).uniform(0.5, 9.5, 25):
+        result = pfaff.solve_ivp(switched(switch), (0, 10), [1.0, 0.0], method, rtol=tolerance, atol=tolerance, **settings)
+        exact = switched_motion(result.t, switch)
+        shares.append(np.max(np.abs(result.y[0] - exact) / (tolerance * (1 + np.abs(exact)))))
+    # Two runs that have to agree may still do so by chance: of 25 errors that are spread evenly over sixteen tolerances one
+    # or two. Runs in steps of halves alone gave medians of 0.9 to 51 and largest ones of up to 310.
+    assert np.median(shares) < 0.7 and np.max(shares) < 16
+
+
+def test_a_jump_that_lies_just_behind_a_step_is_seen():
+    # 5.9 is 0.2 steps behind a step where there are 128 of them, and before the first node of Gauss's of all that are halves.
+    result = pfaff.solve_ivp(switched(5.9), (0, 10), [1.0, 0.0], rtol=1e-6, atol=1e-6)
+    assert np.abs(result.y[0] - switched_motion(result.t, 5.9)).max() < 2e-6  # rtol |y| + atol, |y| <= 2.5, and seen are 6e-7
+    with pytest.raises(pfaff.RunFailed, match="^solve_ivp: no step of gauss down to .* meets rtol and atol"):
+        pfaff.solve_ivp(switched(5.9), (0, 10), [1.0, 0.0], rtol=1e-10, atol=1e-10, most_steps=2**14)
+    # Steps of a tenth and more may miss a pulse of a tenth as a whole, that shorter ones see.
+    with pytest.raises(pfaff.RunFailed, match="^solve_ivp: no step of gauss down to .* meets rtol and atol"):
+        pfaff.solve_ivp(lambda t, y: [pfaff.where(t - 5.7, pfaff.where(5.8 - t, 10, 0), 0) + 0 * y[0]], (0, 10), [0.0], rtol=1e-8, atol=1e-8, most_steps=2**14)
+
+
+def test_a_steep_rise_is_no_smooth_one_before_its_steps_are_short():
+    for rise in np.random.default_rng(5).uniform(0.5, 9.5, 10):
+        result = pfaff.solve_ivp(lambda t, y: [1 / (1 + np.exp((rise - t) * 1e3))], (0, 10), [0.0], rtol=1e-6, atol=1e-6)
+        assert abs(result.y[0, -1] - (10 - rise)) < 1e-5  # the tolerance of 10; errors were up to 0.1
+
+
+def test_smooth_motions_take_the_steps_that_halving_alone_finds():
+    for method, tolerance, steps in (("gauss", 1e-6, 2**12), ("gauss", 1e-9, 2**14), ("implicit-midpoint", 1e-3, 2**15)):
+        assert round(20 / pfaff.solve_ivp("kepler", (0, 20), None, method, rtol=tolerance, atol=tolerance).step) == steps
 
 
 def short(t, y):
@@ -146,6 +189,8 @@ def test_other_faults_of_a_function_have_its_line_too():
     (lambda: pfaff.solve_ivp(oscillator, (0, 0), [1, 0]), "t_span: expected two different"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1j, 0]), "y0: expected real numbers"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], rtol=-1), "rtol: expected a number above 0"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "odeint-dopri5", rtol=1e-16), "rtol: 1e-16 is below round-off, which is 2.22e-16; expected at least that"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], rtol=1e-16), "rtol: 1e-16 is below round-off"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "gaus"), "did you mean 'gauss'?"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "verlet"), "verlet needs separable"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0, 0]), "3"),

@@ -1,4 +1,5 @@
 """What NumPy does with numbers that are recorded, and what is refused."""
+import fractions
 import math
 
 import numpy as np
@@ -70,14 +71,41 @@ def test_arrays_of_no_dimension_are_numbers():
     assert value(lambda z: np.real(z[0])) == 0.3 and value(lambda z: np.tensordot(z, z, 1)) == pytest.approx(0.25, abs=1e-16)
 
 
-@pytest.mark.parametrize("formula", [
-    lambda z: np.arctan2(1.0, z[0]), lambda z: np.hypot(1, z[0]), lambda z: np.fmod(z[0], 1), lambda z: np.linalg.norm(z, 3), lambda z: np.einsum("i,i", z, z),
+@pytest.mark.parametrize("formula, words", [
+    (lambda z: np.arctan2(1.0, z[0]), "numpy.arctan2 cannot be recorded with a first argument that is a plain number; expected one that is recorded"),
+    (lambda z: np.hypot(1, z[0]), "numpy.hypot cannot be recorded with a first argument that is a plain number"),
+    (lambda z: np.fmod(z[0], 1), "numpy.fmod cannot be recorded; expected .*, numpy's sqrt, exp, "),
+    (lambda z: np.linalg.norm(z, 3), "NumPy cannot do this with numbers that are recorded .*; expected .*, numpy's sqrt, exp, "),
+    (lambda z: np.einsum("i,i", z, z), "NumPy cannot do this with numbers that are recorded"),
 ])
-def test_what_numpy_cannot_do_is_a_trace_error_with_the_line(formula):
-    with pytest.raises(pfaff.TraceError, match=r"test_tracing.py:\d+: field of system .*NumPy cannot do this with numbers that are recorded"):
+def test_what_numpy_cannot_do_is_a_trace_error_with_the_line(formula, words):
+    with pytest.raises(pfaff.TraceError, match=rf"test_tracing.py:\d+: field of system [^ ]*: {words}"):
         value(formula)
 
 
 def test_a_fault_of_the_users_own_passes():
     with pytest.raises(AttributeError, match="nothing_of_the_kind"):
         value(lambda z: z[0].nothing_of_the_kind)
+
+
+@pytest.mark.parametrize("name, formula", [
+    ("expm1", lambda x: np.exp(x) - 1), ("log1p", lambda x: np.log(1 + x)), ("arcsinh", lambda x: np.log(x + np.sqrt(x**2 + 1))), ("log2", lambda x: np.log(x) / np.log(2)),
+    ("arctanh", lambda x: np.log((1 + x) / (1 - x)) / 2), ("exp2", lambda x: 2**x), ("log10", lambda x: np.log(x) / np.log(10)), ("cbrt", lambda x: x ** fractions.Fraction(1, 3)),
+])
+def test_what_to_write_instead_is_said_and_is_the_same(name, formula):
+    with pytest.raises(pfaff.TraceError, match=f"field of system .*: numpy.{name} cannot be recorded; expected ") as refused:
+        value(lambda z: getattr(np, name)(z[0]))
+    instead = str(refused.value).split("expected ")[1].removesuffix(", for x > 0")
+    assert eval(instead, {"numpy": np, "fractions": fractions, "x": 0.3}) == pytest.approx(getattr(np, name)(0.3), rel=1e-14)
+    assert value(lambda z: formula(z[0])) == pytest.approx(getattr(np, name)(0.3), rel=1e-14)  # some units of round-off
+
+
+def test_the_functions_that_there_are_are_named_and_there():
+    with pytest.raises(pfaff.TraceError, match="numpy.spacing cannot be recorded; expected ") as refused:
+        value(lambda z: np.spacing(z[0]))
+    for name in str(refused.value).split("numpy's ")[1].split(", pfaff.where")[0].split(", "):
+        function = getattr(np, name)
+        arguments = [0.3, 0.4][: function.nin]
+        assert value(lambda z: function(*z[: function.nin])) == pytest.approx(function(*arguments), rel=1e-14)
+    with pytest.raises(pfaff.TraceError, match=r"numpy.sign\(x\): pfaff.where\(x, 1, -1\)"):
+        value(lambda z: np.sign(z[0]))

@@ -184,3 +184,27 @@ def test_a_start_of_floats_is_on_its_constraints():
         assert pfaff.verify(pendulum(angle, 17)).ok
     coarse = pfaff.verify(pendulum(0.3, 10))
     assert {check.claim for check in coarse.failed} == {"initial state is on the constraints"}
+
+
+forced = pfaff.system(coordinates=["q", "p"], initial=[1, 0], applied_force=lambda p: [-p], name="forced")(lambda q, p: p**2 / 2 + q**2 / 2)
+free = pfaff.system(coordinates=["x", "y"], initial=[1, 0], formula="field", invariants={"size": lambda x, y: x**2 + y**2}, behaviours={"size": "free"}, name="free")(lambda x, y: [y, -x - y])
+wrong = pfaff.system(coordinates=["x", "y"], initial=[1, 0], formula="field", invariants={"size": lambda x, y: x**2 + y**2}, name="wrong")(lambda x, y: [y, -x - y])
+
+
+@pytest.mark.parametrize("system", [forced, free])
+def test_a_system_that_states_nothing_that_could_be_false_is_not_wrong(system):
+    checks = pfaff.verify(system)
+    assert checks.ok and checks.verdict.startswith(f"ok: there is nothing to check of {system.name}, because it states nothing that could be false")
+    assert not pfaff.verify(system, wrong).ok and pfaff.verify(system, "pendulum").verdict.startswith("ok: ")
+    assert "nothing" not in pfaff.verify(system, "pendulum").verdict
+
+
+def test_a_method_that_nothing_fits_is_not_ok():
+    nowhere = pfaff.method(order=0, needs=["generating-map", "holonomic"], name="nowhere")(lambda problem, t, h, z: z)
+    checks = pfaff.verify(nowhere)
+    assert not checks.ok and "no system that is registered fits it" in checks.verdict
+
+
+def test_a_falsification_without_claims_says_why():
+    found = pfaff.falsify(pfaff.method(order=1, name="euler")(lambda problem, t, h, z: z + h * problem.field(t, z)), systems=1)
+    assert len(found) == 0 and not found.ok and repr(found).startswith("no claim was tried: the method makes none that random systems could falsify")

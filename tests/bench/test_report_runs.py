@@ -198,6 +198,13 @@ class Pages(Fresh):
         self.assertIn("time since the start [s]", svg)
         self.assertIn("at most 0.002 at 4 of 20 rows", ended(plot, folder)[1]["sentence"])
 
+    def test_the_sentence_says_how_far_the_reference_reaches(self):
+        for name, most, said in (("some", 0.1, "the relative error of the state is at most 0.1; errors end early: the solution ends."),
+                                 ("none", None, "there are no errors: the solution ends.")):
+            folder = run_directory(self.folder / name, ["t [s]", "q [m]"], [[0.0, 1.0], [0.5, 1.0]], invariants=[],
+                                   error_max=most, reference_ended="the solution ends")
+            self.assertTrue(ended(plot, folder)[1]["sentence"].endswith(said))
+
     def test_what_is_no_run_is_refused(self):
         for folder, said in ((self.folder / "nowhere", "expected the directory of a run"),
                              (run_directory(self.folder / "short", ["t [s]", "q [m]"], [[0.0, 1.0]], invariants=[]),

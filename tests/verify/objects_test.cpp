@@ -88,6 +88,20 @@ TEST(Verdict, OfNothingIsThatNothingWasChecked) {
   EXPECT_TRUE(verdict.line.starts_with("NOT OK: nothing could be checked")) << verdict.line;
 }
 
+// A system whose formulas contradict nothing is as it should be; beside others it does not count.
+TEST(Verdict, OfASystemThatStatesNothingIsOk) {
+  const Verdict verdict = verdict_of({nothing_stated("forced")});
+  EXPECT_TRUE(verdict.ok);
+  EXPECT_FALSE(verdict.checked);
+  EXPECT_TRUE(verdict.line.starts_with("ok: there is nothing to check of forced, because it states nothing"))
+      << verdict.line;
+  Check held, failed;
+  held.result = CheckResult::pass;
+  failed.result = CheckResult::fail;
+  EXPECT_EQ(verdict_of({nothing_stated("forced"), held}).line, "ok: 1 checks hold");
+  EXPECT_FALSE(verdict_of({nothing_stated("forced"), failed}).ok);
+}
+
 TEST(Verdict, CountsClaimsAndControlsApart) {
   Check held, failed, rejected, missed;
   held.result = CheckResult::pass;
