@@ -43,9 +43,13 @@ class ReferenceSolution {
   /// first of these is: the end of the domain of the formulas, a singularity, the time from which the two
   /// series agree in less than 20 digits, a million steps, 2^26 stored numbers (a gigabyte), the end of the
   /// budget of the thread, of which a step of either series spends one. BudgetSpent where that was asked to
-  /// stop. InputError for a closed form that is beyond doubt, from its value and its rate at the start, not
-  /// the solution.
+  /// stop.
   ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration);
+
+  /// Refuses (InputError) a closed form that is beyond doubt, from its value and its rate at the start, not
+  /// the solution over such a duration: of a start on the constraints, for others a closed form need not
+  /// hold.
+  void check_closed_form(Quad duration) const;
 
   /// "exact" for a closed form; of Taylor series, in how many digits of each coordinate the two agree,
   /// "30-digit" at most and at the time where they agree least. A coordinate counts by the size of the

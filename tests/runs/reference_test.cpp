@@ -83,6 +83,7 @@ std::string refusal_of_solution(double duration) {
                                 SaidToBeSolved<closed>());
   try {
     const ReferenceSolution solution(model, Quad(3), start_of(*model), Quad(duration));
+    solution.check_closed_form(Quad(duration));
     return solution.kind();
   } catch (const InputError& error) {
     return error.what();
