@@ -187,7 +187,7 @@ struct Halves {
   Halves p;
   p[0] = low(lowest);
   unsigned char carry = _addcarry_u64(0, low(middle), high(lowest), &p[1]);
-  carry = _addcarry_u64(carry, high(middle), 0, &p[2]);
+  _addcarry_u64(carry, high(middle), 0, &p[2]);  // a half of a product is below the largest number
   carry = _addcarry_u64(0, p[1], low(also_middle), &p[1]);
   carry = _addcarry_u64(carry, p[2], high(also_middle), &p[2]);
   _addcarry_u64(carry, high(highest), 0, &p[3]);
