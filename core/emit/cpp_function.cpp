@@ -15,7 +15,7 @@ const std::string_view cpp_reserved =
     "static_cast struct switch template this thread_local throw true try typedef typeid typename union "
     "unsigned "
     "using virtual void volatile wchar_t while xor xor_eq std NAN INFINITY EOF errno assert linux unix "
-    "sqrt exp log sin cos atan erf sinh tanh pow abs fabs state parameters results shared arguments solve "
+    "pow abs fabs state parameters results shared arguments solve "
     "main "
     "as_lanes "
     "choose_lanes each_lane lane_of lane_count lanes4 lanes8 half_power";

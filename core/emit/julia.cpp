@@ -13,7 +13,7 @@ constexpr std::string_view julia_reserved =
     "function "
     "global if import in isa let local macro module mutable new outer primitive public quote return struct "
     "true "
-    "try type using where while sqrt exp log sin cos atan erf sinh tanh ifelse pi im Inf NaN state "
+    "try type using where while ifelse pi im Inf NaN state "
     "parameters rates "
     "nothing "
     "missing "

@@ -22,17 +22,7 @@ std::string_view usual_name(const Instruction& function) {
     case Operation::cosine:
       return "cos";
     case Operation::special:
-      switch (static_cast<SpecialFunction>(function.c)) {
-        case SpecialFunction::arctangent:
-          return "atan";
-        case SpecialFunction::error_function:
-          return "erf";
-        case SpecialFunction::hyperbolic_sine:
-          return "sinh";
-        case SpecialFunction::hyperbolic_tangent:
-          return "tanh";
-      }
-      [[fallthrough]];
+      return special_functions.at(static_cast<std::size_t>(function.c));
     default:
       throw std::logic_error("usual_name: not a function of one argument");
   }

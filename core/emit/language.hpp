@@ -1,6 +1,7 @@
 // How a language writes numbers and operations, and the expressions of a tape written in it.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,10 @@ struct Phrase {
   Strength strength;
 };
 
+/// The usual names of the functions of one argument; of special ones in the order of SpecialFunction.
+inline constexpr std::array<std::string_view, 5> elementary_functions{"sqrt", "exp", "log", "sin", "cos"};
+inline constexpr std::array<std::string_view, 4> special_functions{"atan", "erf", "sinh", "tanh"};
+
 /// A language. What most of them share is written here; the members that differ are virtual.
 class Language {
  public:
@@ -28,7 +33,7 @@ class Language {
   /// Whether a + (b + c) may be written a + b + c. It may not where the order of roundings matters.
   [[nodiscard]] virtual bool associative() const = 0;
   [[nodiscard]] virtual Phrase number(const Real& value) const = 0;
-  /// A function of one argument by its usual name: sqrt, exp, log, sin, cos, atan, erf.
+  /// A function of one argument by its usual name.
   [[nodiscard]] virtual Phrase function(std::string_view name, const Phrase& argument) const = 0;
   [[nodiscard]] virtual Phrase power(const Phrase& base, const Real& exponent) const = 0;
   /// `positive` where condition > 0, else `otherwise`.

@@ -74,7 +74,7 @@ std::string write_mathematica(const Equations& equations) {
   const Wolfram language;
   const Tape& tape = equations.tape;
   const Plan plan(tape, language.rules());
-  Names names({"", "", &my_own, &is_capital});
+  Names names({"", "", &my_own, &is_capital, false});
   const std::string function = names("rates_of_" + equations.system);
   const TextNames text_name = text_names(equations, plan, names);
   const auto split = text_name.inputs.begin() + static_cast<std::ptrdiff_t>(equations.coordinates.size());

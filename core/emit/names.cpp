@@ -3,6 +3,8 @@
 #include <cctype>
 #include <sstream>
 
+#include <pfaff/core/emit/language.hpp>
+
 namespace pfaff::emit {
 
 std::string with_underscore(const std::string& name) { return name + "_"; }
@@ -10,6 +12,9 @@ std::string with_underscore(const std::string& name) { return name + "_"; }
 Names::Names(const NameRules& rules) : rules_(rules) {
   std::istringstream words{std::string(rules.reserved)};
   for (std::string word; words >> word;) taken_.insert(word);
+  if (!rules.usual_functions) return;
+  taken_.insert(elementary_functions.begin(), elementary_functions.end());
+  taken_.insert(special_functions.begin(), special_functions.end());
 }
 
 std::string Names::operator()(std::string_view wanted) {

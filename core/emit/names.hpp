@@ -17,6 +17,7 @@ struct NameRules {
   std::string_view reserved;                      // words with a meaning of their own, a space between them
   std::string (*other)(const std::string&);       // a name instead of a reserved one
   bool (*refuses)(const std::string&) = nullptr;  // names that are reserved besides
+  bool usual_functions = true;                    // functions have their usual names, which are reserved then
 };
 
 /// Gives names, no two of them the same. A name that is taken, reserved or not allowed is changed; the same

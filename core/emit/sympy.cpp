@@ -14,7 +14,7 @@ constexpr std::string_view sympy_reserved =
     "False None True and as assert async await break case class continue def del elif else except finally "
     "for "
     "from global if import in is lambda match nonlocal not or pass raise return try type while with "
-    "sqrt exp log sin cos atan erf sinh tanh Matrix Piecewise Rational nan oo sympify map tuple rates "
+    "Matrix Piecewise Rational nan oo sympify map tuple rates "
     "coordinates "
     "parameters "
     "results "
@@ -87,8 +87,8 @@ std::string write_sympy(const Equations& equations) {
   for (const std::string& line : legend_of(equations, text_name.inputs)) text += line + "\n";
   text +=
       "\"\"\"\nfrom sympy import Matrix, Piecewise, Rational, cos, exp, log, nan, oo, sin, sqrt, sympify\n";
-  for (const std::string name : {"atan", "erf", "sinh", "tanh"})
-    if (calls(tape, name)) text += "from sympy import " + name + "\n";
+  for (const std::string_view name : special_functions)
+    if (calls(tape, name)) text += "from sympy import " + std::string(name) + "\n";
   text += "\n";
   text += "coordinates = " + quoted(coordinates) + "\nparameters = " + quoted(parameters) + "\n";
   text += "results = " + quoted(names_of_results(equations)) + "\n\n\n";

@@ -83,14 +83,6 @@ template <class P, class F> inline P each_lane(const P& x, F f) {
   }
   return r;
 }
-template <class P> inline P exp(const P& x) { return each_lane(x, [](double a) { return exp(a); }); }
-template <class P> inline P log(const P& x) { return each_lane(x, [](double a) { return log(a); }); }
-template <class P> inline P sin(const P& x) { return each_lane(x, [](double a) { return sin(a); }); }
-template <class P> inline P cos(const P& x) { return each_lane(x, [](double a) { return cos(a); }); }
-template <class P> inline P atan(const P& x) { return each_lane(x, [](double a) { return atan(a); }); }
-template <class P> inline P erf(const P& x) { return each_lane(x, [](double a) { return erf(a); }); }
-template <class P> inline P sinh(const P& x) { return each_lane(x, [](double a) { return sinh(a); }); }
-template <class P> inline P tanh(const P& x) { return each_lane(x, [](double a) { return tanh(a); }); }
 template <class P> inline P pow(const P& x, double y) { return each_lane(x, [y](double a) { return pow(a, y); }); }
 template <class P, class A, class B> inline P choose_lanes(const P& condition, const A& positive, const B& otherwise) {
   P r;
@@ -100,12 +92,28 @@ template <class P, class A, class B> inline P choose_lanes(const P& condition, c
 }
 )";
 
-const std::string library_functions =
-    "extern \"C\" {\ndouble sqrt(double) noexcept;\ndouble exp(double) noexcept;\ndouble log(double) "
-    "noexcept;\n"
-    "double sin(double) noexcept;\ndouble cos(double) noexcept;\ndouble atan(double) noexcept;\n"
-    "double erf(double) noexcept;\ndouble sinh(double) noexcept;\ndouble tanh(double) noexcept;\n"
-    "double pow(double, double) noexcept;\n}\n\n";
+// What text(name) gives for each name.
+template <class Names, class Text>
+std::string of_each(const Names& names, const Text& text) {
+  std::string all;
+  for (const std::string_view name : names) all += text(std::string(name));
+  return all;
+}
+
+// The functions of the library that formulas call, and the same for vectors; roots of these the prelude has.
+std::string library_functions() {
+  const auto declared = [](const std::string& name) { return "double " + name + "(double) noexcept;\n"; };
+  return "extern \"C\" {\n" + of_each(elementary_functions, declared) + of_each(special_functions, declared) +
+         "double pow(double, double) noexcept;\n}\n\n";
+}
+std::string functions_in_lanes() {
+  const auto by_lanes = [](const std::string& name) {
+    if (name == "sqrt") return std::string();
+    return "template <class P> inline P " + name +
+           "(const P& x) { return each_lane(x, [](double a) { return " + name + "(a); }); }\n";
+  };
+  return of_each(elementary_functions, by_lanes) + of_each(special_functions, by_lanes);
+}
 
 std::string symbol_of(Formula formula, const std::string& lanes = "") {
   return "pfaff_" + std::string(row_of(formula).name) + lanes;
@@ -153,13 +161,13 @@ NativeText text_of(const Model& model) {
     if (solver.empty()) solver = cpp_solver(tape);
     functions += function_text(tape, symbol_of(formula), language) + "\n";
     if (!is_in_lanes(formula, tape)) continue;
-    in_lanes = lanes_prelude;
+    in_lanes = lanes_prelude + functions_in_lanes();
     for (const std::string width : {"4", "8"})
       functions +=
           function_text(tape, symbol_of(formula, "_" + width), language_in_lanes, "lanes" + width) + "\n";
   }
   if (functions.empty() && !anew) return result;
-  result.text = library_functions + in_lanes + cpp_half_power("") + solver + functions + result.series.text;
+  result.text = library_functions() + in_lanes + cpp_half_power("") + solver + functions + result.series.text;
   return result;
 }
 
@@ -185,7 +193,7 @@ CompiledTape compiled(const Tape& tape, const std::string& what) {
   const Cpp language("");
   const std::string symbol = "pfaff_tape";
   auto library = native::library_of(
-      library_functions + cpp_half_power("") + cpp_solver(tape) + function_text(tape, symbol, language),
+      library_functions() + cpp_half_power("") + cpp_solver(tape) + function_text(tape, symbol, language),
       what);
   return {reinterpret_cast<CompiledFormula>(library->symbol(symbol)), std::move(library)};
 }
