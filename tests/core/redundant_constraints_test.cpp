@@ -7,6 +7,7 @@
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/system.hpp>
 
+#include "../falling_particle.hpp"
 #include "../formula_values.hpp"
 #include "../integrators/adaptive_samples.hpp"
 #include "../integrators/methods.hpp"
@@ -80,16 +81,8 @@ TEST(RedundantConstraints, AContradictionIsKept) {
 
 // A chain of two rods that is stretched between its ends: the gradients depend on each other in this position
 // and nowhere else, for there is no motion that keeps both.
-struct Stretched {
-  static constexpr int dimension = 4, constraint_count = 2;
-  template <class T>
-  T kinetic(const T& /*t*/, In<T> p) const {
-    return (p[0] * p[0] + p[1] * p[1]) / 2;
-  }
-  template <class T>
-  T potential(const T& /*t*/, In<T> q) const {
-    return q[1];
-  }
+struct Stretched : pfaff::testing::FallingParticle {
+  static constexpr int constraint_count = 2;
   template <class T>
   void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
     phi[0] = q[0] * q[0] + q[1] * q[1] - 1;

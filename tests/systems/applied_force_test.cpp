@@ -9,6 +9,7 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/motion.hpp>
 
+#include "../falling_particle.hpp"
 #include "../formula_values.hpp"
 #include "../integrators/methods.hpp"
 #include "written_models.hpp"
@@ -107,16 +108,8 @@ struct Driven {  // q'' = cos(2 t) - q - q'/5
   }
 };
 // A bob on a circle of radius one about the origin, pushed along it by 3/2 - v_theta/4, with gravity 1.
-struct MotorPendulum {
-  static constexpr int dimension = 4, constraint_count = 1;
-  template <class T>
-  T kinetic(const T& /*t*/, In<T> p) const {
-    return (p[0] * p[0] + p[1] * p[1]) / 2;
-  }
-  template <class T>
-  T potential(const T& /*t*/, In<T> q) const {
-    return q[1];
-  }
+struct MotorPendulum : pfaff::testing::FallingParticle {
+  static constexpr int constraint_count = 1;
   template <class T>
   void applied_force(const T& /*t*/, In<T> z, Out<T> f) const {
     const T push = T(3) / 2 - (z[0] * z[3] - z[1] * z[2]) / 4;

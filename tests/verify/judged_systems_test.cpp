@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "../falling_particle.hpp"
 #include "judged.hpp"
 
 namespace {
@@ -239,17 +240,9 @@ TEST(JudgedSystems, ExactSolutionsOnSurfacesThatMove) {
 
 // A pendulum on a rod whose length is a power of ten, and whose start somebody computed in doubles.
 template <int exponent>
-struct Rod {
-  static constexpr int dimension = 4, constraint_count = 1;
+struct Rod : pfaff::testing::FallingParticle {
+  static constexpr int constraint_count = 1;
   static Real length() { return exponent < 0 ? 1e-9_r : exponent > 0 ? 1e9_r : Real(1); }
-  template <class T>
-  T kinetic(const T& /*t*/, In<T> p) const {
-    return (p[0] * p[0] + p[1] * p[1]) / 2;
-  }
-  template <class T>
-  T potential(const T& /*t*/, In<T> q) const {
-    return q[1];
-  }
   template <class T>
   void holonomic(const T& /*t*/, In<T> q, Out<T> phi) const {
     phi[0] = q[0] * q[0] + q[1] * q[1] - T(length() * length());
