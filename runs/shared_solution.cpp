@@ -18,9 +18,10 @@ std::shared_ptr<const ReferenceSolution> SharedSolution::to(const Quad& duration
   const std::lock_guard lock(mutex_);
   const bool far_enough = duration < Quad(0) ? duration_ <= duration : duration <= duration_;
   if (longest_ == nullptr || !far_enough) {
-    const auto solution =
-        std::make_shared<const ReferenceSolution>(solved_model(model_), t0_, initial_, duration);
-    if (begins_on_constraints(*model_, t0_, initial_)) solution->check_closed_form(duration);
+    const std::shared_ptr<const Model> motion = solved_model(model_);
+    const auto solution = std::make_shared<const ReferenceSolution>(motion, t0_, initial_, duration);
+    if (motion->facets().has(Facet::exact_solution) && begins_on_constraints(*model_, t0_, initial_))
+      solution->check_closed_form(duration);
     longest_ = solution;
     duration_ = duration;
   }
