@@ -58,7 +58,7 @@ class SlopePrediction {
 
  private:
   using Weights = std::array<T, Most>;
-  // The distances fall faster than in a geometric row; but that between two predictions may be small by
+  // Where the field is smooth f is nearer to P_i than P_{i-1} is, but for two predictions that agree by
   // chance.
   static constexpr int most_times = 4;
 

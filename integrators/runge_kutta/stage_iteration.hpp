@@ -18,12 +18,11 @@
 #include <type_traits>
 #include <vector>
 
-#include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/linear/vector.hpp>
 #include <pfaff/core/numbers/sum_of_two.hpp>
-#include <pfaff/core/solve/newton.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>
 #include <pfaff/integrators/runge_kutta/stage_lanes.hpp>
+#include <pfaff/integrators/runge_kutta/stage_newton.hpp>
 #include <pfaff/integrators/support/difference_predictor.hpp>
 
 namespace pfaff {
@@ -57,7 +56,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
         scale_(components()),
         missed_(stages() * components(), levels()),
         in_turns_(in_turns),
-        newton_(newton ? std::make_unique<Newton>(stages() * components()) : nullptr) {}
+        newton_(newton ? std::make_unique<StageNewton<T>>(stages(), components()) : nullptr) {}
 
   /// What a step sets before it solves: the lines of component k, block by block and filled with copies of
   /// the last, and a size that its rates are measured against where they vanish.
@@ -121,40 +120,30 @@ class StageIteration : private StageLayout<T, Components, Stages> {
     return convergence.status();
   }
 
-  /// The same by simplified Newton iteration, where the rates' derivatives are scale_j G, G m x m and
-  /// row-major. Corrections of component k are measured by size(k) or, in the end, by what is rounded:
-  /// rounded(sizes) fills that in for the components (newton()).
+  /// The same by simplified Newton iteration (stage_newton.hpp), where the rates' derivatives are scale_j G,
+  /// G m x m and row-major. Corrections of component k are measured by size(k) or, in the end, by what
+  /// rounded(sizes) fills in for the components.
   template <class Evaluate, class Size, class Rounded>
   [[gnu::noinline]] Status solve_by_newton(const Evaluate& evaluate, const std::vector<T>& slopes,
                                            const T* scale, const Size& size, const Rounded& rounded,
                                            auto&& iterations) {
     const std::size_t s = stages(), m = components();
-    if (!newton_) newton_ = std::make_unique<Newton>(s * m);
-    Newton& w = *newton_;
-    for (std::size_t row = 0; row < s * m; ++row)
-      for (std::size_t column = 0; column < s * m; ++column) {
-        const std::size_t i = row / m, j = column / m;
-        const T coupling = Lanes::get(matrix_[j * blocks() + i / width], i % width) * scale[j] *
-                           slopes[row % m * m + column % m];
-        w.matrix(row, column) = (row == column ? Number(1) : Number(0)) - value_of(coupling);
-      }
-    if (!w.matrix.factor()) return Status::singular;
-    for (std::size_t k = 0; k < m; ++k) {
-      const T reference = size(k);
-      for (std::size_t i = 0; i < s; ++i) {
-        w.unknowns[i * m + k] = Lanes::get(at(line_, i, k), i % width);
-        w.reference[i * m + k] = reference;
-      }
-    }
+    if (!newton_) newton_ = std::make_unique<StageNewton<T>>(s, m);
+    StageNewton<T>& newton = *newton_;
+    const bool regular = newton.factor([&](std::size_t i, std::size_t k, std::size_t j, std::size_t l) {
+      return value_of(
+          T(Lanes::get(matrix_[j * blocks() + i / width], i % width) * scale[j] * slopes[k * m + l]));
+    });
+    if (!regular) return Status::singular;
+    for (std::size_t k = 0; k < m; ++k)
+      for (std::size_t i = 0; i < s; ++i) newton.begin(i, k, Lanes::get(at(line_, i, k), i % width), size(k));
     const auto evaluate_there = [&] {
       for (std::size_t lane = 0; lane < blocks() * width; ++lane)
         for (std::size_t k = 0; k < m; ++k)
-          Lanes::set(at(stage_, lane, k), lane % width, w.unknowns[std::min(lane, s - 1) * m + k]);
+          Lanes::set(at(stage_, lane, k), lane % width, newton.stage(std::min(lane, s - 1), k));
       evaluate(stage_);
     };
-    int count = 0;
-    const Status status = newton<T>(
-        w.matrix,
+    const Status status = newton.solve(
         [&](std::span<T> unknowns, std::span<T> residual) {
           evaluate_there();
           combine_apart(stage_);
@@ -162,17 +151,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
             for (std::size_t k = 0; k < m; ++k)
               residual[i * m + k] = unknowns[i * m + k] - stage(stage_, i, k);
         },
-        w.unknowns, w.reference, w.residual, w.correction, 100, count,
-        [&]() -> std::span<const T> {
-          std::vector<Number> sizes(s * m);
-          rounded(std::span<Number>(sizes).first(m));
-          for (std::size_t k = m; k < s * m; ++k) sizes[k] = sizes[k % m];
-          w.rounding = w.reference;
-          add_rounding(w.rounding, sizes, w.residual, w.correction,
-                       [&w] { w.matrix.solve(w.residual.data(), w.correction.data()); });
-          return w.rounding;
-        });
-    iterations += count;
+        rounded, iterations);
     if (status != Status::converged) return status;
     evaluate_there();
     known_ = true;
@@ -192,13 +171,6 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   }
 
  private:
-  struct Newton {
-    explicit Newton(std::size_t n) : matrix(n), unknowns(n), reference(n), residual(n), correction(n) {}
-    LU<Number> matrix;
-    std::vector<T> unknowns, reference, residual, correction;
-    std::vector<T> rounding;  // made by the first step that asks for it
-  };
-
   // f(k) for every component, unrolled where they are few. What an iteration consists of is inlined by force:
   // GCC leaves it in functions of its own, behind which numbers wait for the store buffer.
   template <class F>
@@ -355,7 +327,7 @@ class StageIteration : private StageLayout<T, Components, Stages> {
   Vector<std::array<Number, parts>, Components> scale_;  // the reciprocal
   DifferencePredictor<T, dynamic, dynamic> missed_;
   bool in_turns_, known_ = false;
-  std::unique_ptr<Newton> newton_;
+  std::unique_ptr<StageNewton<T>> newton_;
 };
 
 }  // namespace pfaff
