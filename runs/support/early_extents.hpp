@@ -30,6 +30,8 @@ class EarlyExtents {
     kept_.push_back({samples_, extents_});
     changed_ = false;
   }
+  /// Counts samples behind those that are looked at.
+  void pass(std::size_t samples) { samples_ += samples; }
   /// Whether the next sample is looked at.
   [[nodiscard]] bool looks() const { return samples_ < planned_; }
   /// Those of the first tenth of all samples, and of eight at least.

@@ -9,6 +9,7 @@
 
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/growth.hpp>
+#include <pfaff/runs/support/rounding_sizes.hpp>
 #include <pfaff/runs/support/watched_error.hpp>
 
 namespace pfaff {

@@ -1,5 +1,6 @@
 #include <pfaff/runs/watched/invariants.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -75,41 +76,51 @@ void WatchedInvariants<T>::at_row(std::size_t row) {
 
 template <class T>
 void WatchedInvariants<T>::sample(double t, const std::vector<double>& z) {
-  if (looks_at_roundings()) roundings_->add(t, z);
-  count_sample();
+  if (roundings_ && to_next_looked_at() == 0) roundings_->add(t, z);
+  count_samples(1);
   extents_.add(z);
   if (!first_state_.empty()) return;
   first_time_ = t;
   first_state_ = z;
-  if (roundings_) first_terms_ = roundings_->terms();
 }
 
 template <class T>
 void WatchedInvariants<T>::sample(const Block<T>& block, const ChosenRows& rows) {
   at_row_.resize(first_state_.size());
   for (std::size_t k = 0; k < rows.count; ++k) {
-    const std::size_t row = rows[k];
-    const bool roundings = looks_at_roundings();
-    if (roundings || extents_.looks())
-      for (std::size_t i = 0; i < at_row_.size(); ++i)
-        at_row_[i] = static_cast<double>(block.states.at(row, i));
-    if (roundings) roundings_->add(static_cast<double>(block.time(row)), at_row_);
-    extents_.add(at_row_);
-    count_sample();
+    if (!extents_.looks()) {
+      const std::size_t passed = std::min(to_next_looked_at(), rows.count - k);
+      count_samples(passed);
+      extents_.pass(passed);
+      k += passed;
+      if (k == rows.count) return;
+    }
+    for (std::size_t i = 0; i < at_row_.size(); ++i)
+      at_row_[i] = static_cast<double>(block.states.at(rows[k], i));
+    sample(static_cast<double>(block.time(rows[k])), at_row_);
   }
 }
 
+// How many samples stand before the next one at which it is found what roundings do.
 template <class T>
-void WatchedInvariants<T>::count_sample() {
-  if (++samples_ == most_roundings * apart_) apart_ *= 2;
+std::size_t WatchedInvariants<T>::to_next_looked_at() const {
+  const std::size_t mask = apart_ - 1;  // apart_ is a power of two
+  return (apart_ - (samples_ & mask)) & mask;
+}
+
+// No more than up to the next one at which it is found.
+template <class T>
+void WatchedInvariants<T>::count_samples(std::size_t count) {
+  samples_ += count;
+  if (samples_ == most_roundings * apart_) apart_ *= 2;
 }
 
 // What there is of each invariant to lose; the extents are those of the first tenth of the motion, since what
 // is lost or blows up changes them.
 template <class T>
-std::vector<double> WatchedInvariants<T>::ranges() const {
+std::vector<double> WatchedInvariants<T>::ranges() {
   if (first_state_.empty() || !roundings_) return {};
-  StartOfMotion start{first_time_, first_state_, extents_.first_tenth(), {}, first_terms_};
+  StartOfMotion start{first_time_, first_state_, extents_.first_tenth(), {}, roundings_->first_terms()};
   for (const T& value : initial_) start.values.push_back(static_cast<double>(value));
   return own_ranges(*model_, start);
 }

@@ -13,6 +13,7 @@
 #include <pfaff/core/facets/tile_rows.hpp>
 #include <pfaff/runs/block_values.hpp>
 #include <pfaff/runs/support/early_extents.hpp>
+#include <pfaff/runs/support/rounding_sizes.hpp>
 #include <pfaff/runs/support/setback.hpp>
 #include <pfaff/runs/support/watched_error.hpp>
 
@@ -59,9 +60,9 @@ class WatchedInvariants {
   [[nodiscard]] InvariantsLeft left(std::int64_t steps);
 
  private:
-  [[nodiscard]] std::vector<double> ranges() const;
-  [[nodiscard]] bool looks_at_roundings() const { return roundings_ && (samples_ & (apart_ - 1)) == 0; }
-  void count_sample();
+  [[nodiscard]] std::vector<double> ranges();
+  [[nodiscard]] std::size_t to_next_looked_at() const;
+  void count_samples(std::size_t count);
 
   std::shared_ptr<const Model> model_;
   std::optional<Problem<T>> problem_;  // none where the model has no invariants, as is the next
@@ -77,8 +78,8 @@ class WatchedInvariants {
   std::size_t apart_ = 1;  // the distance, in samples, of those at which roundings are found; a power of two
   EarlyExtents extents_;
   double first_time_ = 0;
-  std::vector<double> at_row_;                     // the state
-  std::vector<double> first_state_, first_terms_;  // of the first sample; terms: the sizes of those summed
+  std::vector<double> at_row_;  // the state
+  std::vector<double> first_state_;
 };
 
 extern template class WatchedInvariants<double>;
