@@ -213,8 +213,14 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
   for (const double direction : {1.0, -1.0}) {
     if (direction < 0 && symmetric) break;
     const auto step = [&](int k) { return time * Quad(std::ldexp(direction, -k - 1)); };
-    MeasuredOrder order = settle([&](int k) { return errors.after_one(step(k)); }, 40,
-                                 [&](int k) { return floor_after(abs(step(k))); });
+    bool kinks = false;
+    const auto error_of_step = [&](int k) {
+      const Quad error = errors.after_one(step(k));
+      kinks = kinks || errors.across_kinks();
+      return errors.across_kinks() ? Quad(-1) : error;
+    };
+    MeasuredOrder order = settle(error_of_step, 40, [&](int k) { return floor_after(abs(step(k))); });
+    if (!order.settled && kinks) return MeasuredOrder{.reason = across_a_kink};
     order.slope -= 1;
     order.backwards = direction < 0;
     if (direction > 0 || (order.settled && slower.settled && order.slope < slower.slope - 0.5))
