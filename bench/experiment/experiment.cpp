@@ -179,11 +179,34 @@ bool made(const ExperimentRun& run, References& references, const fs::path& dire
   return false;
 }
 
+// The first quantity that is conserved in all of the runs, which have one case; empty where there is none.
+std::string conserved_in(const std::vector<const ExperimentRun*>& runs) {
+  const auto conserves = [](const ExperimentRun* run, const std::string& name) {
+    const std::vector<Invariant>& all = run->resolved.model->invariants();
+    return std::any_of(all.begin(), all.end(), [&](const Invariant& i) {
+      return i.name == name && i.behaviour == Behaviour::conserved;
+    });
+  };
+  for (const Invariant& i : runs.front()->resolved.model->invariants())
+    if (std::all_of(runs.begin(), runs.end(),
+                    [&](const ExperimentRun* run) { return conserves(run, i.name); }))
+      return i.name;
+  return {};
+}
+
 // Makes all that belongs to the experiment and is not there yet. `done` is the number of runs that are there.
-// BudgetSpent where it was asked to stop; what is whole stays. `experiment` gets the steps that are chosen.
+// BudgetSpent where it was asked to stop; what is whole stays. `experiment` gets the steps and the
+// conserved quantities that are chosen.
 void make_all(Experiment experiment, const fs::path& directory, const ExperimentProgress& progress,
               const ExperimentOptions& options, ExperimentOutcome& outcome, std::size_t& done) {
   std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
+  for (ExperimentCase& one : experiment.cases) {
+    if (!one.conserved.empty()) continue;
+    std::vector<const ExperimentRun*> of_case;
+    for (const ExperimentRun& run : runs)
+      if (run.which == &one) of_case.push_back(&run);
+    one.conserved = conserved_in(of_case);
+  }
   ThisProcess alone;
   Team& team = options.team == nullptr ? alone : *options.team;
   Preparation ready;

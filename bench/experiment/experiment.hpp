@@ -46,7 +46,7 @@ struct ExperimentCase {
   bool automatic = false;  // the steps are chosen for each method (automatic_steps.hpp), and `steps` is empty
   std::optional<double> evaluations;  // that a run at a chosen step may take; default_evaluations without it
   std::map<std::string, std::vector<std::string>> chosen;  // steps by the label of the method, once chosen
-  std::string conserved;                                   // the invariant whose drift is shown
+  std::string conserved;  // the invariant whose drift is shown; empty: the first conserved one
   Asked asked;
   std::string error;  // the invariant whose relative drift is the error of a run (error_measure.hpp); or none
   std::vector<std::string> motion;  // two coordinates, whose tracks in their plane are drawn; or none
@@ -122,6 +122,8 @@ struct ExperimentRun {
 
 /// The run as progress and messages call it: "case weak-damping, method RK4, step 0.1".
 std::string in_words(const ExperimentRun& run);
+/// The name of its system as readers know it: of a text model its own, not the path of its file.
+std::string system_of(const ExperimentRun& run);
 
 /// All runs of an experiment. Every one is resolved and checked here, so that mistakes are found before any
 /// work starts. Where steps are still to be chosen, one run of a single step stands for them. `left_out`,

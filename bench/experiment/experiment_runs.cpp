@@ -150,6 +150,10 @@ std::string in_words(const ExperimentRun& run) {
          (run.tolerance.empty() ? ", step " + run.step : ", tolerance " + run.tolerance);
 }
 
+std::string system_of(const ExperimentRun& run) {
+  return text::is_text_file(run.which->system) ? run.resolved.model->name() : run.which->system;
+}
+
 ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size) {
   ExperimentRun run{like.which, like.method, {}, {}, like.seed, {}, {}};
   (like.tolerance.empty() ? run.step : run.tolerance) = size;

@@ -95,7 +95,7 @@ class Experiment:
         for i, case in enumerate(self.cases):
             require(case, f"experiment.json, case {i + 1}", name=str, precision=str)
             allow(case, f"experiment.json, case {case['name']}", title=str, parameters=dict, time_unit=str,
-                  conserved=str, error=str, structure=str, motion=list, equation=str, question=str, answer=str, error_rows=int)
+                  conserved=str, error=str, structure=str, model=str, motion=list, equation=str, question=str, answer=str, error_rows=int)
             if len(case.get("motion") or []) not in (0, 2):
                 raise InputError(f"experiment.json, case {case['name']}: expected 'motion' to name two coordinates")
             if case["precision"] not in UNIT_ROUND_OFF:

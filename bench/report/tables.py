@@ -46,7 +46,7 @@ def cases(experiment):
     for case in experiment.cases:
         steps = sorted({r.step for r in experiment.runs_of(case) if not r.tolerance}, reverse=True)
         rows.append(("", [text(x if x not in (None, "") else "–") for x in (
-            heading(case), case.get("system"), settings(case.get("parameters")),
+            heading(case), case.get("model") or case.get("system"), settings(case.get("parameters")),
             f"{case['time']} {case.get('time_unit') or ''}".strip() if "time" in case else "",
             f"{', '.join(f'{h:.4g}' for h in steps)} {case.get('time_unit') or ''}".strip(), case["precision"],
             case.get("conserved"), case.get("structure"), case.get("reference_solution"))]))

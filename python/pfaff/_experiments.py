@@ -255,14 +255,10 @@ def compare(
         raise Interrupted("interrupted; its runs are gone, and with out= they would be there to be resumed") from None
     if written:
         shutil.copy(path, directory)
-    shown_text = found["table"]
-    for case in experiment.get("case", []) if isinstance(experiment, Mapping) else []:
-        if isinstance(system := case.get("system"), System):
-            shown_text = shown_text.replace(str(_model_file(system)), system.name)
     report_path = found["report"] and pathlib.Path(found["report"])
     return Comparison(
         name=found["name"], title=found["title"], directory=directory, runs=found["runs"], resumed=found["resumed"],
-        failed=found["failed"], text=shown_text, report=report_path, verdicts=found["verdicts"], findings=found["findings"],
+        failed=found["failed"], text=found["table"], report=report_path, verdicts=found["verdicts"], findings=found["findings"],
         left_out=found["left_out"], ok=found["failed"] < found["runs"] and not found["failed_claims"],
         _held=held if out is None else None,
     )
