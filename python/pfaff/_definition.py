@@ -133,7 +133,9 @@ class Definition:
             raise InputError(f"{what}: parameter '{key}': expected a number, got {shown(value)}")
         if key in self.parameters and self.parameters[key] != value:
             raise InputError(f"{what}: parameter '{key}' has the values {self.parameters[key]} and {value}; expected one")
-        self.parameters[key] = value
+        if not isinstance(value, int) and isinstance(self.parameters.get(key), int):
+            del self.parameters[key]  # real where one of its functions says so
+        self.parameters.setdefault(key, value)
 
     def values(self, given: Mapping[str, Any]) -> dict[str, Any]:
         """All parameters with the values that are given, or their own. InputError for unknown names and values that are no numbers."""
@@ -145,7 +147,7 @@ class Definition:
                 if isinstance(value, (float, np.floating)) and float(value).is_integer():
                     value = int(value)
                 if not isinstance(value, (int, np.integer)) or isinstance(value, bool):
-                    raise InputError(f"parameter '{key}' of {self.name}: expected a whole number, got {shown(value)}")
+                    raise InputError(f"parameter '{key}' of {self.name}: expected a whole number, as its default {self.parameters[key]} is, got {shown(value)} (the annotation float, or a default {self.parameters[key]}.0, makes it real)")
             elif not isinstance(value, str) or not value:
                 text_of_number(value, f"parameter '{key}' of {self.name}")
             values[key] = value

@@ -17,7 +17,7 @@ from ._errors import InputError
 from ._naming import absolute, kebab
 from ._numbers import text_of_setting
 from ._tracer import Tracer
-from ._tracing import argument_names, place_of
+from ._tracing import argument_names, as_annotated, place_of
 
 
 class System:
@@ -264,9 +264,9 @@ def _definition_of_class(cls: type) -> Traced:
     members: dict[str, Any] = {}
     described: dict[str, Any] = {}
     for base in reversed(cls.__mro__[: cls.__mro__.index(System)]):
-        for key in inspect.get_annotations(base):
+        for key, annotation in inspect.get_annotations(base).items():
             if key in vars(base) and key not in (*DESCRIBING, *MEMBERS, "coordinates", "initial", "invariants"):
-                parameters[key] = vars(base)[key]
+                parameters[key] = as_annotated(vars(base)[key], annotation)
         for key, value in (*vars(base).items(), *getattr(base, "_written", {}).items()):
             if key in TAKEN:
                 raise InputError(f"{cls.__name__}: {key}: a system has this itself; expected {'system_name' if key == 'name' else 'another name'}")
@@ -299,7 +299,7 @@ def system(*, coordinates: Sequence[str] | Mapping[str, Any], initial: Any = Non
 
     The function gives the Hamiltonian, or another `formula`. Its arguments are found by their names: the time t, the
     coordinates, the whole state z, its halves q and p; arguments with defaults are parameters, whole numbers of which
-    may shape loops and others of which are exact constants. NumPy's functions work on the numbers; instead of `if` and
+    may shape loops, unless they are annotated as float, and others of which are exact constants. NumPy's functions work on the numbers; instead of `if` and
     comparisons there are pfaff.where and, for linear systems, pfaff.solve. An energy that is a sum T(p, t) + V(q, t) is
     found to be separable.
 
@@ -314,7 +314,7 @@ def system(*, coordinates: Sequence[str] | Mapping[str, Any], initial: Any = Non
         compile: compile the formulas by the system's C++ compiler, in double precision.
         invariants: named quantities to follow, {"momentum": lambda p: p[0]}, or a function that gives a dictionary of
             their values. The energy of an autonomous system is followed untold.
-        **members: other formulas by the names that pfaff.System lists, such as holonomic=lambda q, l=1: q @ q - l**2;
+        **members: other formulas by the names that pfaff.System lists, such as holonomic=lambda q, l=1.0: q @ q - l**2;
             and what describes them: units and behaviours (dictionaries by the names of coordinates and invariants),
             time_unit, part_names, small_part, chart_coordinates, title.
 

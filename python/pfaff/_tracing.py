@@ -8,6 +8,7 @@ import re
 import sys
 import types
 from collections.abc import Callable, Mapping
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -79,7 +80,14 @@ def argument_names(function: Callable) -> dict[str, Any]:
     for parameter in parameters:
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD, parameter.POSITIONAL_ONLY):
             raise InputError(f"{place_of(function)}expected arguments with names, got '{parameter}'")
-    return {parameter.name: parameter.default for parameter in parameters}
+    return {parameter.name: as_annotated(parameter.default, parameter.annotation) for parameter in parameters}
+
+
+def as_annotated(value: Any, annotation: Any) -> Any:
+    """A default that is a whole number as the real number that its annotation says it is; other values as they are."""
+    if type(value) is not int or annotation not in (float, "float"):
+        return value
+    return float(value) if int(float(value)) == value else Fraction(value)
 
 
 def call_by_names(function: Callable, known: Mapping[str, Any], what: str) -> Any:

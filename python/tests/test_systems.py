@@ -75,8 +75,32 @@ def test_parameters_are_exact_and_shape_loops():
     for it in (exact, same, binary):
         it.steps(50)
     assert exact.decimals == same.decimals and exact.decimals != binary.decimals
-    with pytest.raises(pfaff.InputError, match="whole number"):
+    with pytest.raises(pfaff.InputError, match=r"expected a whole number, as its default 3 is, got 2.5 \(the annotation float, or a default 3.0, makes it real\)"):
         chain(n=2.5)
+
+
+def test_whole_numbers_that_are_annotated_as_float_are_real():
+    @pfaff.system(coordinates=["q", "p"], initial=[1, 0], invariants={"scaled": lambda q, k=1: k * q})
+    def spring(q, p, k: float = 1, huge: float = 10**17 + 1):
+        return p**2 / 2 + k * q**2 / 2 + (huge - 10**17) * q
+
+    class Spring(pfaff.System):
+        coordinates, initial = ["q", "p"], [1, 0]
+        k: float = -1
+
+        def hamiltonian(self, q, p):
+            return p**2 / 2 + self.k * q**2 / 2
+
+    for one in (spring(k=0.25), Spring(k=0.25)):
+        assert one.parameters["k"] == "0.25" and 'k" = "0.25' in one.to_toml()
+    run = pfaff.run(spring(k=4), "gauss", step=0.01, time=1)
+    assert run.sensitivity("k").shape == (2,)
+
+    @pfaff.method(order=1)
+    def euler(problem, t, h, z, weight: float = 1):
+        return z + weight * h * problem.field(t, z)
+
+    assert euler(weight="1/2").parameters["weight"] == "1/2"
 
 
 def test_a_system_is_recorded_once_for_each_set_of_parameters_and_not_kept_for_ever():
