@@ -128,12 +128,12 @@ class Integration:
 
     @property
     def steps_taken(self) -> int:
-        """The number of steps that lead from t0 to the state."""
+        """The number of steps that lead from t0 to the state; with a tolerance, of all that were taken."""
         return self._it.steps_taken
 
     @property
     def counters(self) -> dict[str, int]:
-        """The work that was done: steps, fields (right-hand sides), jacobians, iterations, factorisations."""
+        """The work that was done: steps, right_hand_sides, jacobians, iterations, factorisations."""
         return self._it.counters
 
     def steps(self, n: int, *, every: int = 0) -> Outcome:

@@ -251,7 +251,7 @@ def _result(
 ) -> OdeResult:
     work = integration.counters
     return result_type(
-        t=t, y=y.T, sol=None, t_events=None, y_events=None, nfev=work["fields"], njev=work["jacobians"], nlu=work["factorisations"],
+        t=t, y=y.T, sol=None, t_events=None, y_events=None, nfev=work["right_hand_sides"], njev=work["jacobians"], nlu=work["factorisations"],
         status=-1 if message else 0, message=message or "The solver successfully reached the end of the integration interval.",
         success=not message, step=size,
     )

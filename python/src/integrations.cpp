@@ -9,6 +9,7 @@
 #include <pfaff/python/src/objects.hpp>
 #include <pfaff/python/src/stepping.hpp>
 #include <pfaff/runs/start.hpp>
+#include <pfaff/runs/support/counter_fields.hpp>
 
 namespace py = pybind11;
 
@@ -49,8 +50,8 @@ std::unique_ptr<Stepping> stepping_of(const PySystem& system, const PyMethod& me
 py::dict counters_of(const Stepping& run) {
   const Counters c = run.counters();
   py::dict counts;
-  counts["steps"] = c.steps, counts["fields"] = c.fields, counts["jacobians"] = c.jacobians;
-  counts["iterations"] = c.iterations, counts["factorisations"] = c.factorisations;
+  counts["steps"] = c.steps;
+  for (const CounterField& field : counter_fields) counts[py::str(std::string(field.name))] = c.*field.count;
   return counts;
 }
 

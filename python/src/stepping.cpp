@@ -109,7 +109,9 @@ class SteppingIn final : public Stepping {
     return texts;
   }
   double step() const override { return static_cast<double>(run_.step()); }
-  std::int64_t steps_taken() const override { return run_.steps_taken(); }
+  std::int64_t steps_taken() const override {
+    return run_.adaptive() ? run_.counters().steps : run_.steps_taken();
+  }
   Counters counters() const override { return run_.counters(); }
   std::shared_ptr<const Model> model() const override { return run_.model(); }
   std::unique_ptr<Stepping> beside(const std::vector<Real>& state) const override {
@@ -200,10 +202,10 @@ class SteppingIn final : public Stepping {
     last_ = {};
     Keeper<T>* const keeper = every > 0 ? &keeper_of(every) : nullptr;
     if (keeper != nullptr) keeper->keeps = true;
-    const std::int64_t begin = run_.steps_taken();
+    const std::int64_t begin = steps_taken();
     // However the call ends: what was kept, and how far it came.
     const auto note = [&] {
-      last_.steps = run_.steps_taken() - begin;
+      last_.steps = steps_taken() - begin;
       if (keeper == nullptr) return;
       keeper->keeps = false;
       last_.t = std::move(keeper->t), last_.y = std::move(keeper->y);

@@ -292,6 +292,13 @@ def test_what_a_handler_of_ones_own_raises_passes_with_the_samples(work):
     assert len(caught.value.run.t) > 0
 
 
+def test_steps_that_a_method_chooses_are_counted():
+    it = pfaff.Integration("kepler", "taylor", tolerance=1e-12)
+    outcome = it.to(10)
+    assert outcome.steps == it.steps_taken == it.counters["steps"] > 20
+    assert it.to(11).steps == it.steps_taken - outcome.steps > 0
+
+
 def test_a_tolerance_below_round_off_is_refused():
     with pytest.raises(pfaff.InputError, match="^tolerance: 1e-16 is below round-off, which is 2.22e-16; expected at least that$"):
         pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance=1e-16)

@@ -163,7 +163,7 @@ def test_compiled_steps_have_the_bits_of_recorded_ones():
 def test_counters_count_right_hand_sides():
     it = pfaff.Integration(henon_heiles, runge_kutta, step=0.1)
     it.steps(10)
-    assert it.counters["fields"] == 40 and it.counters["steps"] == 10
+    assert it.counters["right_hand_sides"] == 40 and it.counters["steps"] == 10
 
 
 def bad(step, **claims):
