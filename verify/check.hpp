@@ -152,8 +152,16 @@ std::vector<Check> check_false_processors();
 /// misprint.
 std::vector<Check> check_false_methods();
 
+/// Thrown where somebody asked a verification to end: what was checked by then.
+class VerificationInterrupted : public RunError {
+ public:
+  VerificationInterrupted(const std::string& message, std::vector<Check> made)
+      : RunError(message), checks(std::move(made)) {}
+  std::vector<Check> checks;
+};
+
 /// Runs the checks. They run in parallel and their results come in a fixed order. InputError for an unknown
-/// name, and for parameters where not exactly one plug-in is named.
+/// name, and for parameters where not exactly one plug-in is named. VerificationInterrupted.
 std::vector<Check> verify(
     const VerificationSettings& settings,
     const std::function<void(const std::string& what, std::size_t done, std::size_t all)>& progress = {});

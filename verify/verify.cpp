@@ -3,7 +3,6 @@
 #include <map>
 #include <mutex>
 
-#include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/parallel.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
@@ -87,7 +86,15 @@ using Progress = std::function<void(const std::string&, std::size_t, std::size_t
 
 // What methods do on a system that is wrong says nothing of the methods, and may take them very long: they
 // are not judged there.
-std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Progress& progress) {
+std::vector<Check> results_of(const std::function<std::vector<VerificationJob>()>& make_jobs,
+                              const Progress& progress) {
+  std::vector<VerificationJob> jobs;
+  try {
+    jobs = make_jobs();
+  } catch (const BudgetSpent& spent) {
+    if (!spent.stopped()) throw;
+    throw VerificationInterrupted("interrupted: no group of checks was made", {});
+  }
   std::vector<std::vector<Check>> results(jobs.size());
   std::vector<std::size_t> first, of_methods;
   for (std::size_t k = 0; k < jobs.size(); ++k) (jobs[k].on.empty() ? first : of_methods).push_back(k);
@@ -117,6 +124,11 @@ std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Pr
     ++done;
     if (progress) progress(jobs[k].what, done, jobs.size());
   };
+  const auto all_checks = [&] {
+    std::vector<Check> all;
+    for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
+    return all;
+  };
   try {
     in_parallel(first.size(), [&](std::size_t k) { run(first[k]); });
     for (const std::size_t k : first)
@@ -124,12 +136,12 @@ std::vector<Check> results_of(const std::vector<VerificationJob>& jobs, const Pr
         if (!jobs[k].of.empty() && own_identity(c) && !good(c)) wrong[jobs[k].of] = c.system;
     in_parallel(of_methods.size(), [&](std::size_t k) { run(of_methods[k]); });
   } catch (const BudgetSpent& spent) {
-    end_interrupted(spent, std::to_string(done) + " of " + std::to_string(jobs.size()) +
-                               " groups of checks were made, and none is shown");
+    if (!spent.stopped()) throw;
+    throw VerificationInterrupted("interrupted: " + std::to_string(done) + " of " +
+                                      std::to_string(jobs.size()) + " groups of checks were made",
+                                  all_checks());
   }
-  std::vector<Check> all;
-  for (auto& part : results) all.insert(all.end(), part.begin(), part.end());
-  return all;
+  return all_checks();
 }
 
 // Where a method fails on a system that was not itself to be verified, the system is looked at too: if it is
@@ -152,7 +164,7 @@ std::vector<Check> verify(const VerificationSettings& given, const Progress& pro
   for (std::string& name : settings.names)
     name = names_method_table(name) ? integrator_named(name).name() : spelled(name);
   validate(settings);
-  std::vector<Check> checks = results_of(verification_jobs(settings), progress);
+  std::vector<Check> checks = results_of([&] { return verification_jobs(settings); }, progress);
   const auto& names = settings.names;
   const std::vector<std::string> methods = integrators().names_and_aliases();
   add_claims_judged_nowhere(checks, [&](const std::string& plugin) {
@@ -166,7 +178,7 @@ std::vector<Check> verify(const VerificationSettings& given, const Progress& pro
 std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
                           const std::vector<std::shared_ptr<const Model>>& systems,
                           const std::vector<std::shared_ptr<const Model>>& on) {
-  std::vector<Check> checks = results_of(verification_jobs(methods, systems, on), {});
+  std::vector<Check> checks = results_of([&] { return verification_jobs(methods, systems, on); }, {});
   for (const auto& model : on)
     if (std::find(systems.begin(), systems.end(), model) == systems.end())
       look_for_fault_of_system(checks, model);

@@ -4,12 +4,12 @@ from __future__ import annotations
 import dataclasses
 import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _pfaff
 from ._arguments import shown, yes_or_no
-from ._errors import InputError
+from ._errors import InputError, Interrupted
 from ._method import Method
 from ._numbers import text_of_setting
 from ._objects import as_method, as_system
@@ -132,8 +132,18 @@ def assignments(parameters: dict[str, Any]) -> list[tuple[str, str]]:
     return [(key, text_of_setting(value, f"parameter '{key}'")) for key, value in parameters.items()]
 
 
-def _checks(result: tuple[Any, ...]) -> Checks:
-    dictionaries, ok, verdict = result
+def _checks(verify: Callable[[list], tuple[Any, ...]]) -> Checks:
+    """What a verification finds; where Ctrl-C ends it, what it found by then is the attribute `run` of the exception."""
+    made: list[tuple[Any, ...]] = []
+    try:
+        return _checks_of(*verify(made))
+    except Interrupted as error:
+        for dictionaries, _, _ in made:
+            error.run = _checks_of(dictionaries, False, str(error))
+        raise
+
+
+def _checks_of(dictionaries: Sequence[dict[str, Any]], ok: bool, verdict: str) -> Checks:
     return Checks([Check(**one) for one in dictionaries], ok, verdict)
 
 
@@ -178,7 +188,7 @@ def verify(*claimants: str | System | Method, on: Any = None, full: bool = False
 
     Raises:
         InputError: an unknown name, or a method that does not fit a system of `on`.
-        Interrupted: Ctrl-C.
+        Interrupted: Ctrl-C; its attribute `run` has the checks that were made by then, which are not `ok`.
 
     >>> import pfaff
     >>> checks = pfaff.verify("verlet", on="henon-heiles")
@@ -187,7 +197,7 @@ def verify(*claimants: str | System | Method, on: Any = None, full: bool = False
     """
     whole_set, named, targets = yes_or_no(full, "full"), [_claimant(one) for one in claimants], _targets(on)
     if on is None and all(isinstance(one, str) for one in named):
-        return _checks(_pfaff.verify_names(named, assignments(parameters), whole_set))
+        return _checks(lambda made: _pfaff.verify_names(named, assignments(parameters), whole_set, made))
     if not named:
         raise InputError("verify: expected a method whose claims are to be verified on the systems of `on`")
     if whole_set:
@@ -201,4 +211,4 @@ def verify(*claimants: str | System | Method, on: Any = None, full: bool = False
             methods.append((method.instance, list(method.parameters.items())))
         else:
             systems.append(as_system(one, "claimants", **parameters).model)
-    return _checks(_pfaff.verify_objects(methods, systems, targets))
+    return _checks(lambda made: _pfaff.verify_objects(methods, systems, targets, made))

@@ -34,12 +34,31 @@ py::tuple verified(const std::vector<Check>& checks) {
   return py::make_tuple(list, verdict.ok, verdict.line);
 }
 
-py::tuple verify_names(std::vector<std::string> names, Assignments parameters, bool full) {
+// What check() gives. Where it is interrupted, `made` gets what was checked by then.
+template <class Checking>
+py::tuple verified_with(const Checking& check, py::list made) {
+  std::optional<std::vector<Check>> by_then;
+  try {
+    return verified(without_lock([&] {
+      try {
+        return check();
+      } catch (const VerificationInterrupted& end) {
+        by_then = end.checks;
+        throw;
+      }
+    }));
+  } catch (...) {
+    if (by_then) made.append(verified(*by_then));
+    throw;
+  }
+}
+
+py::tuple verify_names(std::vector<std::string> names, Assignments parameters, bool full, py::list made) {
   VerificationSettings settings;
   settings.names = std::move(names);
   settings.set = std::move(parameters);
   settings.full = full;
-  return verified(without_lock([&] { return verify(settings); }));
+  return verified_with([&] { return verify(settings); }, std::move(made));
 }
 
 std::vector<std::shared_ptr<const Model>> models_of(const std::vector<PySystem>& systems) {
@@ -49,10 +68,11 @@ std::vector<std::shared_ptr<const Model>> models_of(const std::vector<PySystem>&
 }
 
 py::tuple verify_objects(const Methods& methods, const std::vector<PySystem>& systems,
-                         const std::vector<PySystem>& on) {
+                         const std::vector<PySystem>& on, py::list made) {
   std::vector<MethodToVerify> under_test;
   for (const auto& [method, parameters] : methods) under_test.push_back({method.method, parameters});
-  return verified(without_lock([&] { return verify(under_test, models_of(systems), models_of(on)); }));
+  return verified_with([&] { return verify(under_test, models_of(systems), models_of(on)); },
+                       std::move(made));
 }
 
 py::dict in_python(const FalsificationResult& result) {

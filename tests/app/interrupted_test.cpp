@@ -1,6 +1,7 @@
 // Ctrl-C and SIGTERM end every command that works for long, soon and in one line that says what was done by
 // then.
 #include <chrono>
+#include <regex>
 #include <thread>
 
 #include "command.hpp"
@@ -22,7 +23,6 @@ Outcome interrupted(const Arguments& arguments, int signal) {
 
 TEST(Interrupted, CommandsEndAndSayWhatWasDone) {
   const std::vector<std::pair<Arguments, std::string>> commands{
-      {{"verify", "gauss", "--full"}, "groups of checks"},
       {{"falsify", "gauss", "--budget", "600"}, "random systems"},
       {{"tune", "henon-heiles", "--step", "0.1", "--order", "4", "--stages", "9", "--starts", "1000000"},
        "starts of a search"},
@@ -32,6 +32,19 @@ TEST(Interrupted, CommandsEndAndSayWhatWasDone) {
     expect_complaint(interrupted(command, signal), 1, {"interrupted: ", said}, joined(command));
     signal = signal == SIGINT ? SIGTERM : SIGINT;
   }
+}
+
+TEST(Interrupted, VerificationShowsTheChecksThatWereMade) {
+  const Outcome text = interrupted({"verify", "gauss", "--full"}, SIGTERM);
+  EXPECT_EQ(text.status, 1);
+  EXPECT_TRUE(std::regex_match(text.err,
+                               std::regex(R"(pfaff: interrupted: \d+ of \d+ groups of checks were made\n)")))
+      << text.err;
+  EXPECT_NE(text.out.find("symplectic"), std::string::npos) << text.out;
+  const nlohmann::json made = json_of(interrupted({"verify", "gauss", "--full", "--json"}, SIGINT).out);
+  EXPECT_FALSE(made["ok"].get<bool>());
+  EXPECT_NE(made["verdict"].get<std::string>().find("groups of checks were made"), std::string::npos);
+  EXPECT_GT(made["counts"]["pass"].get<int>(), 0);
 }
 
 // The trial run that finds out how many samples are kept is as long as the run itself.

@@ -176,24 +176,17 @@ void print_causes(const std::vector<Check>& checks) {
   std::cout << '\n';
 }
 
-}  // namespace
-
-int verify_command(const VerificationSettings& settings, const Common& common) {
-  std::vector<Check> checks;
-  {
-    const Interruption interruption;
-    ProgressLine line(common.quiet);
-    checks = verify(settings, [&](const std::string& what, std::size_t done, std::size_t all) {
-      line.show(what, static_cast<double>(done) / static_cast<double>(all));
-    });
-  }
+// `ended` says where the verification was interrupted: then nothing is said to be sound.
+int show(const std::vector<Check>& checks, const VerificationSettings& settings, const Common& common,
+         const std::string& ended) {
   std::map<std::string, int> totals{{"pass", 0},     {"fail", 0},    {"measured", 0},
                                     {"rejected", 0}, {"skipped", 0}, {"not_judged", 0}};
   for (const Check& c : checks) {
     ++totals[std::string(to_string(c.result))];
     totals["not_judged"] += unjudged(c);
   }
-  const auto [ok, any, line] = verdict_of(checks);
+  auto [ok, any, line] = verdict_of(checks);
+  if (!ended.empty()) ok = false, line = ended;
   if (common.json) {
     nlohmann::json list = nlohmann::json::array();
     for (const Check& c : checks) list.push_back(to_json(c));
@@ -201,13 +194,30 @@ int verify_command(const VerificationSettings& settings, const Common& common) {
         {{"schema", 1}, {"ok", ok}, {"verdict", line}, {"counts", totals}, {"checks", list}});
   } else if (!common.quiet || !ok) {
     std::cout << paragraph(line) << '\n';
-    if (!ok && any) print_causes(checks);
+    if (!std::all_of(checks.begin(), checks.end(), good)) print_causes(checks);
     if (settings.verbose)
       print_all(checks);
     else if (any)
       print_claims(checks);
   }
   return ok ? 0 : 1;
+}
+
+}  // namespace
+
+int verify_command(const VerificationSettings& settings, const Common& common) {
+  std::vector<Check> checks;
+  try {
+    const Interruption interruption;
+    ProgressLine line(common.quiet);
+    checks = verify(settings, [&](const std::string& what, std::size_t done, std::size_t all) {
+      line.show(what, static_cast<double>(done) / static_cast<double>(all));
+    });
+  } catch (const VerificationInterrupted& end) {
+    (void)show(end.checks, settings, common, end.what());
+    throw;
+  }
+  return show(checks, settings, common, {});
 }
 
 }  // namespace pfaff
