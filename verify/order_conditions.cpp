@@ -131,6 +131,7 @@ std::optional<Check> check_order_conditions(MethodOnModel& on) {
     const double missed =
         largest_part(errors, solution, on.step<Quad>().scales(), radius, std::min(order, most_conditions));
     if (missed > of_printed_digits) return check;
+    check.measured = missed, check.tolerance = of_printed_digits;
     check.result = CheckResult::pass;
     check.reason = "holds to the " + std::to_string(std::lround(std::floor(-std::log10(missed)))) +
                    " digits that its coefficients are given to; more digits, or double_coefficients, say so";

@@ -55,7 +55,7 @@ TEST(Kinks, SoundMethodsAreNotBlamedForThem) {
 struct Boasting : pfaff::testing::Classical<false> {};
 
 TEST(Kinks, FalseClaimsAreFoundBesideThem) {
-  const Method<Boasting> boasting{
+  static const Method<Boasting> boasting{
       {.name = "boasting", .title = "", .reference = "", .order = 5, .preserves = {Claim::symmetric}}};
   for (const auto& model : {from<DryFriction>(0.5_r, 0.3_r), from<DryFriction>(0.5_r, -0.01_r)}) {
     const Names names = bad(check_method(*boasting.make({}), {}, "kinked", model));
