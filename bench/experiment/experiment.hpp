@@ -105,7 +105,8 @@ std::vector<std::string> experiment_names();
 /// Reads an experiment, given the name of an installed one or the path of a TOML file. With `quick` the
 /// tables [quick] and [case.quick] override titles and settings. InputError for unknown keys (with the
 /// nearest known one) and wrong types. docs/experiments.md says what a file may hold.
-Experiment read_experiment(const std::string& name_or_path, bool quick);
+/// `others`: methods will be added to those of the file, which may then have none.
+Experiment read_experiment(const std::string& name_or_path, bool quick, bool others = false);
 
 /// True where the case is run with the method.
 bool takes(const ExperimentCase& one, const ExperimentMethod& method);

@@ -207,6 +207,7 @@ void read_case(const toml::table& table, const Part& part, Experiment& experimen
   c.finish();
   for (const std::string& label : one.methods) check_label(experiment, label, where);
   const bool fixed =
+      experiment.methods.empty() ||
       std::any_of(experiment.methods.begin(), experiment.methods.end(),
                   [&](const ExperimentMethod& m) { return m.tolerances.empty() && takes(one, m); });
   if (fixed) check_steps(one, where);
@@ -294,7 +295,7 @@ std::vector<std::string> experiment_names() {
   return names;
 }
 
-Experiment read_experiment(const std::string& name_or_path, bool quick) {
+Experiment read_experiment(const std::string& name_or_path, bool quick, bool others) {
   fs::path path = name_or_path;
   if (path.extension() != ".toml") {
     const fs::path directory = data_directory() / "experiments";
@@ -330,7 +331,7 @@ Experiment read_experiment(const std::string& name_or_path, bool quick) {
     for (const toml::table* table : keys[k].tables("method", false))
       read_method(*table, parts[k], experiment);
   read_methods_by_selection(parts, keys, experiment);
-  if (experiment.methods.empty())
+  if (experiment.methods.empty() && !others)
     throw InputError(where + ": expected at least one [[method]], or the key 'methods'");
   for (std::size_t k = 0; k < parts.size(); ++k)
     for (const toml::table* table : keys[k].tables("case", false)) read_case(*table, parts[k], experiment);

@@ -3,15 +3,19 @@ from __future__ import annotations
 
 import html
 import os
+import tempfile
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from . import _pfaff
 from ._arguments import text, texts, whole
+from ._errors import InputError
 from ._numbers import text_of_setting
 from ._objects import as_system
+from ._tables import data_frame
 
 if TYPE_CHECKING:
+    import pandas
     import sympy
 
     from ._system import System
@@ -57,6 +61,10 @@ class Equations:
         )
         return dict(zip((*self.coordinates, *self.further), rates))
 
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame with a row for each rate, and for what is further there: its name and SymPy's expression."""
+        return data_frame(("quantity", "rate"), list(self.to_sympy().items()))
+
     def __repr__(self) -> str:
         symbols = ", ".join(self.parameters) or "the coordinates alone"
         return f"<equations of {self.system} by {self.method}: {len(self.coordinates)} rates, {self.operations} operations, symbols: {symbols}>"
@@ -71,15 +79,15 @@ def derivation_methods() -> dict[str, str]:
 
 
 def derive(
-    system: str | System, method: str = "ldl", *, friction_form: str | None = None, order: int = 4, elimination: Sequence[str] = (),
+    system: str | System, method: str | None = None, *, friction_form: str | None = None, order: int = 4, elimination: Sequence[str] = (),
     **parameters: Any
 ) -> Equations:
     """Derives the equations of motion of a system from its energy and its constraints.
 
     Args:
-        system: a registered name or a text model, whose parameters become symbols where that is possible, or a
-            `pfaff.System`, whose parameters are numbers.
-        method: one of `pfaff.derivation_methods()`.
+        system: a registered name, a text model or a `pfaff.System`, whose parameters become symbols where that is possible;
+            whole numbers that shape a system stay numbers.
+        method: one of `pfaff.derivation_methods()`; without it the first that fits the system.
         friction_form: "metriplectic", "stokes" or "none"; without it that of the formulation that the method derives.
         order: the degree of a generating function, of the method "generating-function".
         elimination: the order in which constraints are eliminated, by their names, of methods that take one after the
@@ -95,9 +103,21 @@ def derive(
     True
     """
     friction = "" if friction_form is None else text(friction_form, "friction_form", "the name of one or None")
-    chosen = (text(method, "method", "the name of one"), friction, whole(order, "order", 1), texts(elimination, "elimination", '["phi1"]'))
+    if method is not None and not text(method, "method", "the name of one or None"):
+        raise InputError("method: expected the name of one, or None for the first that fits, got ''")
+    chosen = (method or "", friction, whole(order, "order", 1), texts(elimination, "elimination", '["phi1"]'))
     if isinstance(system, (str, os.PathLike)):
         name = os.fspath(system)
         values = [(key, text_of_setting(value, f"parameter '{key}' of {name}")) for key, value in parameters.items()]
         return Equations(_pfaff.derive_named(name, values, *chosen))
-    return Equations(_pfaff.derive_object(as_system(system, **parameters).model, *chosen))
+    made = as_system(system, **parameters)
+    if made.registered_name:
+        return Equations(_pfaff.derive_named(made.registered_name, list(made.parameters.items()), *chosen))
+    with tempfile.TemporaryDirectory(prefix="pfaff-") as folder:
+        path = os.path.join(folder, f"{made.name}.toml")
+        try:
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(made.to_toml())
+        except InputError:  # it has what no text model says, and derivation may not need
+            return Equations(_pfaff.derive_object(made.model, *chosen))
+        return Equations(_pfaff.derive_named(path, [], *chosen))

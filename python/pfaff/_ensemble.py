@@ -1,10 +1,11 @@
 """Many initial states at once."""
 from __future__ import annotations
 
+import html
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,20 +14,50 @@ from ._arguments import function, real_array, unknown, whole
 from ._errors import InputError
 from ._integration import attach, with_parameters
 from ._numbers import float_of_number
+from ._tables import data_frame
+
+if TYPE_CHECKING:
+    import pandas
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, repr=False)
 class Ensemble:
     """Trajectories from many initial states."""
 
-    t: np.ndarray = field(repr=False)
+    system: str
+    """The name of the system."""
+    method: str
+    """The name of the method."""
+    coordinates: tuple[str, ...]
+    """The names of the coordinates."""
+
+    t: np.ndarray
     """The times of the rows, shape (rows,); the first is that of the start."""
-    y: np.ndarray = field(repr=False)
+    y: np.ndarray
     """The states, shape (N, rows, dimension); NaN behind the end of a trajectory that ended early."""
     failures: dict[int, str]
     """Why trajectories ended early, by their index."""
-    done: np.ndarray = field(repr=False)
+    done: np.ndarray
     """Which trajectories have come to their end or to their failure, shape (N,): all unless something was raised."""
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame with a row for each row of each trajectory: its index, t and the coordinates."""
+        count, rows, n = self.y.shape
+        columns = [np.repeat(np.arange(count), rows), np.tile(self.t, count), *self.y.reshape(-1, n).T]
+        return data_frame(("trajectory", "t", *self.coordinates), list(zip(*columns)))
+
+    def __repr__(self) -> str:
+        rows = self.y.shape[1]
+        text = f"ensemble of {self.system} by {self.method}: {len(self.y)} trajectories, t = {self.t[0]:g} .. {self.t[-1]:g}, {rows} rows each"
+        if not self.done.all():
+            text += f"; {int(self.done.sum())} of them came to their end"
+        if self.failures:
+            first = min(self.failures)
+            text += f"; {len(self.failures)} ended early, number {first}: {self.failures[first]}"
+        return text
+
+    def _repr_html_(self) -> str:
+        return f"<p>{html.escape(repr(self))}</p>"
 
 
 def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, every: int = 0, t0: Any = 0, threads: int | None = None,
@@ -75,7 +106,7 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     if callback is not None:
         function(callback, "callback", "a function of the index of a trajectory")
     y = np.empty((len(array), 1 + count // stride, base.dimension))
-    result = Ensemble(start + stride * np.arange(y.shape[1]) * h, y, {}, np.zeros(len(array), dtype=bool))
+    result = Ensemble(base.name, tool.name, tuple(base.coordinates), start + stride * np.arange(y.shape[1]) * h, y, {}, np.zeros(len(array), dtype=bool))
 
     def report(failures: list[str], done: list[int]) -> None:
         result.failures.update({k: message for k, message in enumerate(failures) if message})

@@ -2,7 +2,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -13,8 +13,12 @@ from ._errors import InputError
 from ._numbers import float_of_number, text_of_number, texts_of_coordinates
 from ._objects import as_system
 from ._system import System, Traced
-from ._tables import html_table, text_table
+from ._tables import data_frame, html_table, text_table
 from ._tracing import call_by_names, flat, recorded
+
+
+if TYPE_CHECKING:
+    import pandas
 
 
 class Evaluation(Mapping[str, Any]):
@@ -41,6 +45,10 @@ class Evaluation(Mapping[str, Any]):
 
     def __contains__(self, key: object) -> bool:
         return key in self._values
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame with a row for each quantity and its value."""
+        return data_frame(("quantity", "value"), list(self._values.items()))
 
     def _rows(self) -> list[tuple[str, Any]]:
         return [(key, str(value).replace("\n", "")) for key, value in self._values.items()]

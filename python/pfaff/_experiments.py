@@ -113,6 +113,11 @@ class WorkPrecision:
         axes.set_title(self._titles[case])
         return axes
 
+    def to_pandas(self) -> pandas.DataFrame:
+        """A data frame with a row for each point of the curves."""
+        return data_frame(("case", "method", "work", "error"), [
+            (case, method, *point) for case, curves in self.curves.items() for method, (work, error) in curves.items() for point in zip(work, error)])
+
     def __repr__(self) -> str:
         return f"<work and precision of {', '.join(f'{case} ({len(curves)} methods)' for case, curves in self.curves.items())}>"
 

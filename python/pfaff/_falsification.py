@@ -34,7 +34,7 @@ class Counterexample:
     """
 
     name: str
-    model: str
+    model: str = dataclasses.field(repr=False)
     dimension: int
     step: str
     steps: int

@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import inspect
 import os
+import re
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -139,7 +140,7 @@ class TableMethod:
             try:
                 return _pfaff.table_method(path, _assignments("table", parameters))
             except InputError as error:
-                raise InputError(str(error).replace(path, "table")) from None
+                raise InputError(re.sub(re.escape(path) + r"(:1:1)?", "table", str(error))) from None
 
     def pickled(self) -> tuple:
         return TableMethod, (self.text,)

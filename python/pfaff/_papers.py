@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _pfaff
 from ._arguments import text
 from ._errors import InputError
-from ._tables import Judged, frame_of_fields, html_table, text_table
+from ._tables import Judged, bar, frame_of_fields, html_table, text_table
 
 if TYPE_CHECKING:
     import pandas
@@ -67,7 +68,11 @@ class Reproduction(Judged[Reproduced]):
         return f"{self.paper}\n{text_table(self._COLUMNS, rows)}\n{len(self)} rows: {counts}"
 
     def _repr_html_(self) -> str:
-        return f"<h4>{self.paper}</h4>" + html_table(self._COLUMNS, self._shown())
+        # The bar has a decade of the difference in each tenth, and is full where all that is allowed is reached.
+        bars = [bar(1 + math.log10(row.difference / row.tolerance) / 10 if row.difference > 0 < row.tolerance else 0.0, row.status != "failed")
+                for row in self._items]
+        rows = [(*shown[:4], one, *shown[4:]) for shown, one in zip(self._shown(), bars)]
+        return f"<h4>{self.paper}</h4>" + html_table((*self._COLUMNS[:4], "", *self._COLUMNS[4:]), rows)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A data frame with a row for each published value."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 import inspect
 import math
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -57,7 +57,7 @@ def solve_ivp(
         step: the size of a fixed step; the end of the span is reached in whole steps of at most this size.
         most_steps: how many steps a run may take, 16 or more. Without it 2**24, and of a field of more than 256 operations fewer. A
             method that chooses its steps ends where it has taken them, and the result says so; no more fixed ones are tried.
-        **parameters: of the method, such as stages=3.
+        **parameters: of the method, such as stages=3. SciPy's max_step, first_step and jac are refused with what takes their places.
 
     Returns:
         SciPy's result: t, shape (points,), y, shape (n, points), success, status (0, or -1 where a step failed), message,
@@ -76,7 +76,7 @@ def solve_ivp(
     (True, True)
     """
     result_type = _result_type()
-    _refuse(dense_output, events)
+    _refuse(dense_output, events, parameters)
     yes_or_no(vectorized, "vectorized")
     begin, end = _span(t_span)
     system, state = _system_and_state(fun, y0, args)
@@ -105,7 +105,22 @@ def _result_type() -> Any:
     return OdeResult
 
 
-def _refuse(dense_output: bool, events: Any) -> None:
+# Options of SciPy's methods that no method here has, and what to do instead.
+_INSTEAD = {
+    "max_step": "expected step=, the size of all steps",
+    "first_step": "expected step=, the size of all steps",
+    "min_step": "expected most_steps=, how many steps may be taken",
+    "jac": "expected nothing, since derivatives are taken of fun itself",
+    "jac_sparsity": "expected nothing, since derivatives are taken of fun itself",
+    "lband": "expected nothing, since derivatives are taken of fun itself",
+    "uband": "expected nothing, since derivatives are taken of fun itself",
+}
+
+
+def _refuse(dense_output: bool, events: Any, options: Mapping[str, Any]) -> None:
+    for key in options:
+        if key in _INSTEAD:
+            raise InputError(f"{key}: not there; {_INSTEAD[key]}")
     if events is not None:
         raise InputError("events: not there; expected pfaff.Integration with watch(callback), which ends where the callback gives True")
     if yes_or_no(dense_output, "dense_output"):

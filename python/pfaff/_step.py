@@ -22,6 +22,9 @@ from ._tracing import argument_names, array_of, flat, place_of, recorded
 FORMULAS = _pfaff.formulas_of_problems()
 
 
+_WARNED: dict[Any, Any] = {}  # which constants were told of, each once
+
+
 class Problem:
     """What a step is given of the system that it steps on.
 
@@ -160,12 +163,14 @@ class StepFunction:
     def _warn_of(self, noted: list[tuple[str, str]], what: str) -> None:
         if self.claims["order"] <= 0:
             return
-        for place, text in dict(noted).items():
-            warnings.warn(
-                f"{place}: {what} claims an order and has the constant {text}, which a float has rounded: in quad precision its "
-                "order is lost. Expected an exact one, such as fractions.Fraction(1, 3)",
-                stacklevel=2,
-            )
+        for place in dict.fromkeys(place for place, _ in noted):
+            texts = dict.fromkeys(text for at, text in noted if at == place)
+            many = len(texts) > 1
+            file, _, line = place.rpartition(":")
+            warnings.warn_explicit(
+                f"{what} claims an order and has the constant{'s' if many else ''} {', '.join(texts)}, which a float has rounded: in quad "
+                f"precision its order is lost. Expected {'exact ones' if many else 'an exact one'}, such as fractions.Fraction(1, 3)",
+                UserWarning, file or "<unknown>", int(line or 0), registry=_WARNED)
 
     def pickled(self) -> tuple:
         if _found(*self.reference) is not self:

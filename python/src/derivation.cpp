@@ -35,6 +35,14 @@ DerivationOptions options_of(const std::string& friction, int degree, std::vecto
   return options;
 }
 
+// The method that is asked for; without one the first that fits the model.
+std::string method_for(const Model& model, const std::string& asked) {
+  if (!asked.empty()) return asked;
+  for (const DerivationMethod& method : derivation_methods())
+    if (derivation_misfit(model, method.name).empty()) return method.name;
+  return derivation_methods().front().name;  // says what it misses
+}
+
 // Of a system by its name, with its parameters as symbols where that is possible.
 Equations derive_named(const std::string& name, const Assignments& parameters, const std::string& method,
                        const std::string& friction, int degree, std::vector<std::string> elimination) {
@@ -42,7 +50,7 @@ Equations derive_named(const std::string& name, const Assignments& parameters, c
   const SystemPlugin& system = system_asked_for(name);
   return without_lock([&] {
     return with_named_parameters(system, parameters,
-                                 [&](const Model& model) { return derive(model, method, options); });
+                                 [&](const Model& model) { return derive(model, method_for(model, method), options); });
   });
 }
 
@@ -50,7 +58,7 @@ Equations derive_named(const std::string& name, const Assignments& parameters, c
 Equations derive_object(const PySystem& system, const std::string& method, const std::string& friction,
                         int degree, std::vector<std::string> elimination) {
   const DerivationOptions options = options_of(friction, degree, std::move(elimination));
-  return without_lock([&] { return derive(*system.model, method, options); });
+  return without_lock([&] { return derive(*system.model, method_for(*system.model, method), options); });
 }
 
 std::vector<std::string> names_of(const std::vector<Symbol>& symbols) {

@@ -39,7 +39,7 @@ void add_methods(Experiment& experiment, const NamedMethods& methods) {
 py::dict compared(const std::string& name, const std::string& asked_for, const NamedMethods& methods,
                   const std::string& directory, bool quick, bool force, bool compile, bool report,
                   std::optional<double> timing) {
-  Experiment experiment = read_experiment(name, quick);
+  Experiment experiment = read_experiment(name, quick, !methods.empty());
   if (!asked_for.empty()) experiment.asked_for = asked_for;
   experiment.compile = experiment.compile || compile;
   add_methods(experiment, methods);

@@ -158,8 +158,9 @@ void bind_values(py::class_<Number>& c) {
   for (const char* name : {"__mod__", "__rmod__", "__floordiv__", "__rfloordiv__", "__divmod__"})
     c.def(name, refused<py::object>(no_remainder));
   for (const char* name :
-       {"__floor__", "__ceil__", "__trunc__", "__round__", "rint", "floor", "ceil", "trunc"})
+       {"__floor__", "__ceil__", "__trunc__", "rint", "floor", "ceil", "trunc"})
     c.def(name, refused<>(no_remainder));
+  c.def("__round__", refused<py::args>(no_remainder));
   c.attr("__hash__") = py::none();
   c.def_property_readonly("constant", [](const Number& x) -> std::optional<std::string> {
     if (!x.value.is_constant()) return std::nullopt;

@@ -242,29 +242,34 @@ class RunInProgress {
     for (std::size_t k = 0; k < tables_.size(); ++k) {
       const MeasuredTable& table = tables_[k];
       py::dict columns;
-      py::list steps;
-      for (const MeasuredTable::Line& line : table.lines) steps.append(line.step);
+      py::array_t<std::int64_t> steps(static_cast<py::ssize_t>(table.lines.size()));
+      for (std::size_t row = 0; row < table.lines.size(); ++row)
+        steps.mutable_data()[row] = table.lines[row].step;
       columns["step"] = std::move(steps);
-      for (std::size_t i = 0; i < table.columns.size(); ++i) {
-        py::list cells;
-        const bool texts = table.columns[i].kind == Column::Kind::text;
-        for (const MeasuredTable::Line& line : table.lines) {
-          const Cell& cell = line.cells[i];
-          if (texts && !std::holds_alternative<std::string>(cell))
-            cells.append(py::none());  // one that has nothing to say, as of a quantity without a drift
-          else
-            cells.append(cell_of(cell));
-        }
-        columns[py::str(table.columns[i].name)] = std::move(cells);
-      }
+      for (std::size_t i = 0; i < table.columns.size(); ++i)
+        columns[py::str(table.columns[i].name)] =
+            table.columns[i].kind == Column::Kind::text ? texts_of(table, i) : numbers_of(table, i);
       result[py::str(measures_[k]->descriptor().name)] = py::make_tuple(columns, table.ended);
     }
     return result;
   }
-  static py::object cell_of(const Cell& cell) {
-    if (const auto* text = std::get_if<std::string>(&cell)) return py::str(*text);
-    if (const auto* quad = std::get_if<Quad>(&cell)) return py::float_(static_cast<double>(*quad));
-    return py::float_(std::get<double>(cell));
+  // A list, with None where there is nothing to say, as of a quantity without a drift.
+  static py::object texts_of(const MeasuredTable& table, std::size_t column) {
+    py::list texts;
+    for (const MeasuredTable::Line& line : table.lines) {
+      const auto* text = std::get_if<std::string>(&line.cells[column]);
+      texts.append(text != nullptr ? py::object(py::str(*text)) : py::none());
+    }
+    return std::move(texts);
+  }
+  static py::object numbers_of(const MeasuredTable& table, std::size_t column) {
+    py::array_t<double> numbers(static_cast<py::ssize_t>(table.lines.size()));
+    for (std::size_t row = 0; row < table.lines.size(); ++row) {
+      const Cell& cell = table.lines[row].cells[column];
+      const auto* quad = std::get_if<Quad>(&cell);
+      numbers.mutable_data()[row] = quad != nullptr ? static_cast<double>(*quad) : std::get<double>(cell);
+    }
+    return std::move(numbers);
   }
   [[nodiscard]] std::map<std::string, std::string> units() const {
     std::map<std::string, std::string> result{{"t", run_.model->time_unit()}};

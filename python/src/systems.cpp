@@ -97,6 +97,7 @@ void bind_systems(py::module_& module) {
       .def_property_readonly("formulation", [](const PySystem& s) { return s.model->source().formulation; })
       .def_property_readonly("constraint_names",
                              [](const PySystem& s) { return s.model->constraint_names(); })
+      .def("__repr__", [](const PySystem& s) { return "<model of " + s.model->name() + ">"; })
       .def("compiled",
            [](const PySystem& s) { return PySystem{without_lock([&] { return compiled(s.model); })}; });
   module.def("make_system", [](const std::string& name, const Assignments& parameters) {

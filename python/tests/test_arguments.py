@@ -72,7 +72,7 @@ CALLS = {
         "system": (), "state": {"nothing", "numbers"}, "time": NUMBER, "formulation": {"nothing", "empty text"}, "precision": (), "centre": {"nothing"}, "alpha": NUMBER}),
     "bracket": (pfaff.bracket, {"f": lambda q: q, "g": lambda p: p, "z": [1, 2], "on": duffing}, {"f": (), "g": (), "z": {"numbers"}, "on": (), "time": NUMBER}),
     "derive": (pfaff.derive, {"system": "spherical-pendulum"}, {
-        "system": (), "method": (), "friction_form": {"nothing", "empty text"}, "order": {"number"}, "elimination": {"empty", "names"}, "mass": {"number"}}),
+        "system": (), "method": {"nothing"}, "friction_form": {"nothing", "empty text"}, "order": {"number"}, "elimination": {"empty", "names"}, "mass": {"number"}}),
     "Equations.text": (lambda **k: pfaff.derive("spherical-pendulum").text(**k), {}, {"language": ()}),
     "verify": (lambda claimants="verlet", **k: pfaff.verify(claimants, **k), {"on": duffing}, {"claimants": (), "on": {"nothing"}, "full": {"truth"}}),
     "falsify": (pfaff.falsify, {"method": "verlet", "claim": "symplectic", "systems": 1, "budget": 0.1}, {

@@ -53,6 +53,16 @@ def test_callbacks_and_ctrl_c():
     assert caught.value.run.done[5] and np.isfinite(caught.value.run.y[5]).all()
     error, late = interrupted_after(0.3, lambda: pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=10**9, every=10**5, threads=2))
     assert late < 0.1 and np.isfinite(error.run.y[0, 1]).all() and not error.run.done.all()
+    assert repr(error.run).endswith("trajectories, t = 0 .. 5e+07, 10001 rows each; 0 of them came to their end")
+
+
+def test_an_ensemble_says_what_it_is_and_becomes_a_data_frame():
+    pytest.importorskip("pandas")
+    of = pfaff.ensemble(henon_heiles, "verlet", STATES, step=0.05, steps=10, every=5)
+    assert repr(of) == f"ensemble of {henon_heiles.name} by verlet: 20 trajectories, t = 0 .. 0.5, 3 rows each" and repr(of) in of._repr_html_()
+    frame = of.to_pandas()
+    assert list(frame.columns) == ["trajectory", "t", *henon_heiles.coordinates] and len(frame) == 60
+    assert (frame[list(henon_heiles.coordinates)].to_numpy() == of.y.reshape(60, 4)).all() and list(frame["trajectory"][:4]) == [0, 0, 0, 1]
 
 
 @pytest.mark.parametrize(

@@ -92,7 +92,7 @@ def test_derived_equations_are_those_that_are_evaluated():
     assert "rates" in equations.text("sympy") and "<pre>" in equations._repr_html_()
 
 
-def test_equations_of_a_system_of_python_have_its_numbers():
+def test_equations_of_a_system_of_python_have_its_parameters():
     sympy = pytest.importorskip("sympy")
 
     @pfaff.system(coordinates={"q": 2, "p": 2}, initial=[1, 0, 0, 0], holonomic=lambda q: q @ q - 1)
@@ -104,8 +104,15 @@ def test_equations_of_a_system_of_python_have_its_numbers():
     q1, q2, p1, p2 = map(sympy.Symbol, equations.coordinates)
     # On the circle: p' = -g e2 - (p.p - g q2) q, by hand
     point = {q1: sympy.Rational(3, 5), q2: sympy.Rational(4, 5), p1: sympy.Rational(4, 5), p2: sympy.Rational(-3, 5)}
-    second = list(rates.values())[3].subs(point)
+    assert equations.parameters == {"g": "2"} and list(equations.to_pandas()["rate"]) == list(rates.values())
+    second = list(rates.values())[3].subs(point).subs(sympy.Symbol("g"), 2)
     assert second == -2 - (1 - 2 * sympy.Rational(4, 5)) * sympy.Rational(4, 5)
+
+
+def test_equations_are_derived_by_a_method_that_fits():
+    for system, method in (("kepler", "birkhoffian"), ("spherical-pendulum", "ldl"), (pfaff.System("kepler"), "birkhoffian"), ("sleigh", "nonholonomic")):
+        equations = pfaff.derive(system)
+        assert equations.method == method and len(equations.coordinates) == pfaff.System(system if isinstance(system, str) else "kepler").dimension
 
 
 def test_a_paper_is_reproduced():

@@ -41,6 +41,13 @@ def test_a_dictionary_is_run_with_a_method_of_python_beside_its_own(swing):
     assert 13 < errors["Gauss 4", 0.2] / errors["Gauss 4", 0.1] < 19
 
 
+def test_methods_may_all_be_objects():
+    found = pfaff.compare({key: value for key, value in SWING.items() if key != "method"}, methods=[leap, "gauss"], timing=0.005)
+    assert set(found.table["method"]) == {"leap", "gauss"}
+    frame = found.work_precision.to_pandas()
+    assert list(frame.columns) == ["case", "method", "work", "error"] and len(frame) == found.runs
+
+
 def test_work_and_precision_are_those_of_the_tables(swing):
     curves = swing.work_precision.curves["swing"]
     work, error = curves["Verlet"]
@@ -134,8 +141,11 @@ def test_an_interrupted_experiment_is_resumed(tmp_path):
     assert short.ok and short.runs == 8
 
 
-def test_a_system_of_python_is_shown_by_its_name():
+def test_a_system_of_python_is_shown_by_its_name(tmp_path):
     swing = pfaff.system(coordinates=["q", "p"], initial=[1, 0], name="swing")(lambda q, p: p**2 / 2 - np.cos(q))
     case = {"name": "free", "system": swing, "time": 1, "steps": [0.1]}
-    text = repr(pfaff.compare({"title": "A swing", "method": [{"label": "Verlet", "integrator": "verlet"}], "case": [case]}, timing=0.01))
-    assert "free (swing, T = 1)" in text and ".toml" not in text
+    found = pfaff.compare({"title": "A swing", "method": [{"label": "Verlet", "integrator": "verlet"}], "case": [case]}, timing=0.01, out=tmp_path / "out")
+    assert "free (swing, T = 1), drift of energy" in found.text and ".toml" not in found.text
+    assert list(found.table["system"]) == ["swing"]
+    described = json.loads((tmp_path / "out" / "experiment.json").read_text())["cases"][0]
+    assert described["model"] == "swing" and described["conserved"] == "energy"

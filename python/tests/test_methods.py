@@ -73,8 +73,9 @@ def test_constants_that_a_float_has_rounded_are_warned_of():
 
         return pfaff.method(order=3, name="heun")(step)
 
-    with pytest.warns(UserWarning, match=r"test_methods.py:\d+: method heun claims an order and has the constant 0\.33333"):
+    with pytest.warns(UserWarning, match=r"^method heun claims an order and has the constant 0\.33333") as told:
         end(duffing, thirds(1 / 3))
+    assert told[0].filename == __file__
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         end(duffing, thirds(Fraction(1, 3)))
@@ -149,6 +150,8 @@ def test_tables_are_checked_as_files_are():
     assert np.abs(end(duffing, ralston, steps=1) - (z + 0.05 * (k1 + 3 * k2) / 4)).max() < 1e-16
     with pytest.raises(pfaff.InputError, match="a condition of order 3, is off by"):
         pfaff.table({**ralston, "order": 3})
+    with pytest.raises(pfaff.InputError, match="^table: key 'a': is missing"):
+        pfaff.table({key: value for key, value in ralston.items() if key != "a"})
     with pytest.raises(pfaff.InputError, match="did you mean 'name'"):
         pfaff.table({**ralston, "nme": "x"})
 

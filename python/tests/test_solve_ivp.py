@@ -201,6 +201,8 @@ def test_other_faults_of_a_function_have_its_line_too():
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], args=3.0), "args: expected a tuple of further arguments of fun, such as (2.0,), got 3.0"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], "taylor", rtol=2), "rtol: expected a number in (0, 1] for taylor, got 2.0"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), [0, 0], "taylor", atol=0), "start at rest in zero has none; expected absolute beside it"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], max_step=0.1), "max_step: not there; expected step=, the size of all steps"),
+    (lambda: pfaff.solve_ivp(oscillator, (0, 1), [1, 0], jac=lambda t, y: y), "jac: not there; expected nothing, since derivatives are taken of fun itself"),
     (lambda: pfaff.solve_ivp(oscillator, (0, 1), np.eye(2)), "y0: expected real numbers, all finite, shape (n,), got an array of shape (2, 2)"),
     (lambda: pfaff.solve_ivp(pfaff.system(coordinates=["q", "p"])(lambda q, p: q * p), (0, 1)), "y0: expected 2 numbers, because lambda has no initial state"),
     (lambda: pfaff.solve_ivp("kepler", (0, 1), [1, 0]), "y0: expected shape (4,), a number for each of q1, q2, p1, p2, got 2 numbers"),

@@ -40,6 +40,7 @@ def test_numpy_works_on_the_numbers():
         (lambda q, p: p if q == p else q, r"pfaff\.where"),
         (lambda q, p: q % 2 + p, "remainders"),
         (lambda q, p: np.floor(q) + p, "remainders"),
+        (lambda q, p: round(q, 2) + p, "remainders"),
         (lambda q, p: np.maximum(q, p), r"pfaff\.where"),
         (lambda q, p: q + np.random.rand(), "recorded once"),
         (lambda q, p: np.linalg.inv(np.array([[q, p], [p, q]]))[0, 0], r"pfaff\.solve"),
