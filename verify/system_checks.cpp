@@ -43,6 +43,23 @@ Check varies(const std::string& system, const std::string& invariant,
   return check;
 }
 
+// The one output of a tape is positive at no random state, and along no short motion.
+void never_positive(std::vector<Check>& checks, const std::string& name, const std::string& claim,
+                    const std::shared_ptr<const Model>& motion, const std::shared_ptr<const Tape>& forbidden,
+                    const Region& region) {
+  const auto positive = expression(motion->dimension(), 1, [&](const Recorded& t, Arguments z, Results out) {
+    const Recorded r = evaluate(*forbidden, t, z)[0];
+    out[0] = select(r, r, Recorded(0));
+  });
+  both(checks, name, claim, name, positive, region);
+  if (!is_short(*motion)) return;
+  const Check along = named(name, claim + " along the motion", name, "quad", 0, residual_tolerance<Quad>());
+  checks.push_back(within_budget(along, [&] {
+    return named(name, along.claim, name, "quad", largest_along(motion, forbidden, region),
+                 residual_tolerance<Quad>());
+  }));
+}
+
 void invariants(std::vector<Check>& checks, const std::string& name,
                 const std::shared_ptr<const Model>& motion, Region region) {
   const Model& model = *motion;
@@ -67,26 +84,26 @@ void invariants(std::vector<Check>& checks, const std::string& name,
       both(checks, name, "conserves " + list[k].name, name, rate, region);
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
-      // Positive where the rate has the forbidden sign, and what is positive of it.
       const auto forbidden = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
         const Recorded r = evaluate(*rate, t, z)[0];
         out[0] = falls ? r : -r;
       });
-      const auto wrong = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
-        const Recorded r = evaluate(*forbidden, t, z)[0];
-        out[0] = select(r, r, Recorded(0));
-      });
-      const std::string claim = (falls ? "decreases " : "increases ") + list[k].name;
-      both(checks, name, claim, name, wrong, region);
-      if (!is_short(model)) continue;
-      const Check along =
-          named(name, claim + " along the motion", name, "quad", 0, residual_tolerance<Quad>());
-      checks.push_back(within_budget(along, [&] {
-        return named(name, along.claim, name, "quad", largest_along(motion, forbidden, region),
-                     residual_tolerance<Quad>());
-      }));
+      never_positive(checks, name, (falls ? "decreases " : "increases ") + list[k].name, motion, forbidden,
+                     region);
     }
   }
+}
+
+// Coefficients of friction are none of driving.
+void friction(std::vector<Check>& checks, const std::string& name, const Model& model,
+              const std::shared_ptr<const Model>& motion, const Region& region) {
+  const auto coefficients = model.tape(Formula::friction);
+  const auto driving = expression(model.dimension(), 1, [&](const Recorded& t, Arguments z, Results out) {
+    const auto lambda = evaluate(*coefficients, t, z);
+    out[0] = -lambda[0];
+    for (std::size_t k = 1; k < lambda.size(); ++k) out[0] = max(out[0], -lambda[k]);
+  });
+  never_positive(checks, name, "coefficients of friction are not negative", motion, driving, region);
 }
 
 // The exact solution satisfies the differential equation and starts at its initial state.
@@ -184,6 +201,7 @@ std::vector<Check> check_system(const std::string& name, const std::shared_ptr<c
     for (Check& check : check_metriplectic(name, *model)) checks.push_back(std::move(check));
   Region on_surface = region;
   if (model->restricted()) on_surface.surface = model;
+  if (model->given(Formula::friction)) friction(checks, name, *model, motion, on_surface);
   invariants(checks, name, motion, on_surface);
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, name, *motion, on_surface);
   if (model->given(Formula::reversal))

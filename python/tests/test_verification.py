@@ -211,3 +211,15 @@ def test_a_method_that_nothing_fits_is_not_ok():
 def test_a_falsification_without_claims_says_why():
     found = pfaff.falsify(pfaff.method(order=1, name="euler")(lambda problem, t, h, z: z + h * problem.field(t, z)), systems=1)
     assert len(found) == 0 and not found.ok and repr(found).startswith("no claim was tried: the method makes none that random systems could falsify")
+
+
+def test_friction_that_drives_is_found():
+    def rubbed(friction):
+        return pfaff.system(coordinates={"q": 2, "p": 2}, initial=[1, 0, 0, 0.5], holonomic=lambda q: q @ q - 1, friction=friction, name="rubbed")(
+            lambda q, p: p @ p / 2 + 9.81 * q[1])
+
+    for sound in (lambda q: [0.1, 0.1], lambda q: [0, 0.1], lambda q: [q[0] ** 2, 0.1 + 0.1 * np.sin(q[1])], lambda q, p: [np.sqrt(p @ p), 0]):
+        assert pfaff.verify(rubbed(sound)).ok
+    # The second is negative where the motion comes to later alone.
+    for driving in (lambda q: [-0.1, -0.1], lambda q: [q[0], 0.1]):
+        assert "coefficients of friction are not negative along the motion" in {check.claim for check in pfaff.verify(rubbed(driving)).failed}
