@@ -223,3 +223,15 @@ def test_friction_that_drives_is_found():
     # The second is negative where the motion comes to later alone.
     for driving in (lambda q: [-0.1, -0.1], lambda q: [q[0], 0.1]):
         assert "coefficients of friction are not negative along the motion" in {check.claim for check in pfaff.verify(rubbed(driving)).failed}
+
+
+def test_a_closed_form_that_jumps_is_found():
+    def oscillator(jump):
+        def solution(elapsed, q, p):
+            s = elapsed + pfaff.where(elapsed - 1.3, jump, 0)
+            return [q * np.cos(s) + p * np.sin(s), p * np.cos(s) - q * np.sin(s)]
+
+        return pfaff.system(coordinates=["q", "p"], initial=[1, 0], exact_solution=solution, name="jumping")(lambda q, p: p**2 / 2 + q**2 / 2)
+
+    assert pfaff.verify(oscillator(0)).ok
+    assert [check.claim for check in pfaff.verify(oscillator(1e-15)).failed] == ["exact solution along the motion"]
