@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arguments import dictionary, real_array, shown, text, texts, unknown
+from ._arguments import dictionary, dictionary_or_none, real_array, shown, text, texts, unknown
 from ._errors import InputError
 
 if TYPE_CHECKING:
@@ -73,6 +73,12 @@ def pairs_of(curves: Any) -> dict[str, tuple[np.ndarray, np.ndarray]]:
             raise InputError(f"curves['{label}']: expected a pair of arrays of one shape, got shape {rows.shape}")
         pairs[label] = (rows[0], rows[1])
     return pairs
+
+
+def given_units(units: Any) -> dict[str, str]:
+    """Units by the names of what has them."""
+    given = dictionary_or_none(units, "units", "a dictionary of units by the names of what has them")
+    return {name: text(unit, f"units['{name}']") for name, unit in given.items()}
 
 
 def given_rods(rods: Any, count: int) -> list[tuple[int, int]]:

@@ -70,8 +70,8 @@ def test_bodies_move_as_they_are_told():
 def test_a_run_is_drawn_by_the_kind_of_plot():
     run = pfaff.run("spherical-pendulum", "rattle", step=0.01, time=1, measures=["reversibility"])
     assert np.array_equal(drawn(run.plot(coordinates="x").get_lines()[0]), [run.t, run["x"]])
-    assert run.plot("phase portrait", coordinates=["x", "y"]).get_ylabel() == "y"
-    assert {line.get_label() for line in run.plot("drift").get_lines()} == set(run.drift)
+    assert run.plot("phase portrait", coordinates=["x", "y"]).get_ylabel() == "y [m]"
+    assert {line.get_label() for line in run.plot("drift").get_lines()} == {f"{name} [{run.units[name]}]" for name in run.drift}
     assert {line.get_label() for line in run.plot("constraints").get_lines()} == set(run.constraints)
     axes = run.plot("reversibility: distance")
     steps = np.asarray(run.measures["reversibility"]["step"])
@@ -115,6 +115,8 @@ def test_figures_are_written_and_put_into_pages(tmp_path):
     (lambda: plots.trajectory(T, Z, ["q", "p"], coordinates="r"), "unknown coordinate 'r'"),
     (lambda: plots.phase_portrait(T, Z, ["q", "p"], coordinates=["q"]), "expected two coordinates"),
     (lambda: plots.drift(T, {"energy": T[1:]}), "values['energy']: expected 61 numbers, one for each time"),
+    (lambda: plots.trajectory(T, Z, ["q", "p"], cordinates="q"), "did you mean 'coordinates'"),
+    (lambda: plots.drift(T, {"energy": T}, units={"energy": 3}), "units['energy']: expected a text, got 3"),
     (lambda: plots.bodies(T, Z), "expected positions of shape"),
     (lambda: plots.bodies(T, np.zeros((61, 2, 2)), rods=[(0, 2)]), "expected rods between bodies 0 .. 1"),
 ])
