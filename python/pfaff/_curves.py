@@ -40,27 +40,39 @@ def curves_in(axes: Axes) -> dict[Line2D, Curve]:
     return {line: _CURVES[line] for line in axes.get_lines() if line in _CURVES}
 
 
-def draw(axes: Axes, x: np.ndarray, y: np.ndarray, name: str, *, unit: str = "", label: str = "", quantity: str = "") -> Line2D:
-    """A curve in the next colour and dashes of the axes. One point alone has a mark."""
+def draw(axes: Axes, x: np.ndarray, y: np.ndarray, name: str, *, unit: str = "", label: str = "", quantity: str = "", dotted: bool = False) -> Line2D:
+    """A curve in the next colour and dashes of the axes, or in the next marks. One point alone has a mark."""
     points = np.isfinite(x) & np.isfinite(y)
     marked = {"marker": "o", "markersize": settings()["lines.markersize"]} if points.sum() == 1 else {}
-    (line,) = axes.plot(x, y, **look(len(curves_in(axes))), **marked)
+    (line,) = axes.plot(x, y, **{**look(len(curves_in(axes)), dotted), **marked})
     _CURVES[line] = Curve(name, "" if unit == "1" else unit, label, quantity, entry=line.get_label())
     return line
 
 
 def draw_logarithmic(axes: Axes, x: np.ndarray, y: np.ndarray, name: str, *, least: float = 0, **what: Any) -> None:
-    """A curve on a logarithmic scale. What is below `least` stands on it, and zeros at half of the smallest of the others."""
+    """A curve on a logarithmic scale. What is below `least` stands on it, and zeros at half of the smallest of the others.
+
+    Noise, such as that of round-off, is drawn as points: lines between them would fill the axes.
+    """
     positive = y[y > 0]
     floor = least or (positive.min() / 2 if len(positive) else 1e-17)
-    draw(axes, x, np.where(y <= floor, floor, y), name, **what)
+    shown = np.where(y <= floor, floor, y)
+    draw(axes, x, shown, name, dotted=_is_noise(shown), **what)
     axes.set_yscale("log")
+
+
+def _is_noise(values: np.ndarray) -> bool:
+    """Whether many values go up and down more often than on in one direction, as independent ones do at two thirds of them."""
+    values = values[np.isfinite(values)]
+    ways = np.sign(np.diff(values))
+    ways = ways[ways != 0]
+    return len(values) >= 100 and len(ways) > 0.2 * len(values) and float(np.mean(ways[1:] != ways[:-1])) > 0.5
 
 
 def label_axes(axes: Axes, x: str, always: bool = False) -> None:
     """Labels of the axes and a legend, of all curves that are in them; the legend of a single one where it is `always` or has a label.
 
-    What the caller has changed stays: labels of axes and of lines.
+    What the caller has changed stays: labels of axes and of lines, and limits.
     """
     if not axes.get_xlabel():
         axes.set_xlabel(x)
@@ -68,6 +80,7 @@ def label_axes(axes: Axes, x: str, always: bool = False) -> None:
     curves = curves_in(axes).values()
     if len(curves) > 1 or always or any(curve.label for curve in curves):
         _legend(axes)
+    _widen(axes)
 
 
 def name_run(axes: Axes, earlier: Sequence[Line2D], told: Sequence[str]) -> None:
@@ -122,3 +135,31 @@ def _legend(axes: Axes) -> None:
     beside = axes.figure.get_layout_engine() is not None
     place = {"loc": "upper left", "bbox_to_anchor": (1, 1), "frameon": False} if beside else {"loc": "best", "facecolor": of["figure.facecolor"], "edgecolor": "none", "framealpha": 0.8}
     axes.legend(handles=handles, fontsize=of["legend.fontsize"], labelcolor=of["text.color"], handlelength=3, **place)
+
+
+def _widen(axes: Axes) -> None:
+    """Wider ranges where an axis holds nothing but round-off, or less than a decade of a logarithmic scale."""
+    lines = list(curves_in(axes))
+    for axis, get, fixed in (("x", axes.get_xscale, axes.get_autoscalex_on), ("y", axes.get_yscale, axes.get_autoscaley_on)):
+        drawn = [np.asarray(line.get_data()[axis == "y"], float) for line in lines]
+        values = np.concatenate(drawn) if drawn else np.empty(0)
+        range_of = _decades if get() == "log" else _beyond_rounding
+        wider = range_of(values[np.isfinite(values)]) if fixed() else None
+        if wider:
+            getattr(axes, f"set_{axis}lim")(*wider, auto=True)  # what is drawn afterwards makes it anew
+
+
+def _decades(values: np.ndarray) -> tuple[float, float] | None:
+    """The decades around values that are within one; below ten times the least, ticks have labels of many digits."""
+    if not len(values) or values.min() <= 0 or values.max() >= 10 * values.min():
+        return None
+    low, high = np.floor(np.log10(values.min())), np.ceil(np.log10(values.max()))
+    return float(10.0**low / 1.2), float(10.0 ** max(high, low + 1) * 1.2)
+
+
+def _beyond_rounding(values: np.ndarray) -> tuple[float, float] | None:
+    """A twentieth to both sides of values that differ by what is rounded."""
+    size = abs(values).max() if len(values) > 1 else 0
+    if not 0 < size < np.inf or values.max() - values.min() >= 1e-12 * size:
+        return None
+    return float(values.mean() - 0.05 * size), float(values.mean() + 0.05 * size)

@@ -113,8 +113,11 @@ def _in_order() -> list[Any]:
     return taken
 
 
-def look(number: int) -> dict[str, Any]:
-    """Colour and dashes of the number-th curve of a figure, which also in grey differs from the others."""
+def look(number: int, dotted: bool = False) -> dict[str, Any]:
+    """Colour, and dashes or marks, of the number-th curve of a figure, which also in grey differs from the others."""
     order, dashes = _in_order(), families()["DASHES"]
     family = order[number % len(order)]
+    if dotted:
+        return {"color": family.light, "linestyle": "none", "marker": family.mark, "markersize": 2.5, "markeredgewidth": 0.4,
+                "fillstyle": "none" if number % 2 else "full"}
     return {"color": family.light, "linestyle": dashes[number % len(dashes)], "linewidth": settings()["lines.linewidth"]}

@@ -91,6 +91,8 @@ def drift(
 ) -> Axes:
     """By how much each named quantity differs from its value at the start, |I(t) - I(0)|, on a logarithmic scale.
 
+    What is less than unit round-off of the largest |I| is drawn on it.
+
     Args:
         t: times, shape (n,).
         values: arrays of shape (n,) by their names, such as run.invariants.
@@ -108,9 +110,10 @@ def drift(
     axes = axes_to_draw_into(axes)
     for name, series in listed.items():
         scale = abs(series[0]) if divided and len(series) and series[0] != 0 else 1.0
+        least = np.finfo(float).eps / 2 * np.abs(series[np.isfinite(series)]).max(initial=0) / scale
         with np.errstate(invalid="ignore"):  # what is not finite is left out
             differences = np.abs(series - series[:1])[1:] / scale
-        draw_logarithmic(axes, times[1:], differences, name, unit="" if divided else of.get(name, ""), label=before, quantity=quantity)
+        draw_logarithmic(axes, times[1:], differences, name, least=least, unit="" if divided else of.get(name, ""), label=before, quantity=quantity)
     label_axes(axes, along, always=True)
     return axes
 

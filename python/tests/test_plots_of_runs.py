@@ -158,6 +158,16 @@ def test_one_point_has_a_mark():
     assert len(plots.drift(T[:1], {"energy": [1.0]}).get_lines()) == 1
 
 
+def test_noise_is_drawn_as_points(spherical):
+    noise = 1e-16 * (1 + np.random.default_rng(1).random(200))
+    line = plots.measure(np.arange(200.0), noise, "residual").get_lines()[0]
+    assert line.get_linestyle() == "None" and line.get_marker() != "None"
+    smooth = plots.measure(np.arange(200.0), 2 + np.sin(np.arange(200) / 3), "residual").get_lines()[0]
+    assert smooth.get_linestyle() == "-"
+    first, second = plots.drift(np.arange(200.0), {"a": 1 + noise * 9, "b": 1 + noise[::-1] * 9}).get_lines()
+    assert first.get_marker() != second.get_marker() and first.get_fillstyle() != second.get_fillstyle()
+
+
 def test_residuals_that_are_zero_stand_below_the_others():
     run = pfaff.run("polar-double-pendulum", "projected-gauss", step=0.01, time=1)
     exact, hidden = run.plot("constraints").get_lines()
@@ -173,6 +183,23 @@ def test_what_is_not_finite_is_left_out():
     for draw in (lambda: plots.trajectory(T[:5], np.reshape(values, (5, 1)), ["q"]), lambda: plots.measure(T[:5], values, "x"),
                  lambda: plots.drift([], {"energy": []}), lambda: plots.trajectory([], np.empty((0, 2)), ["q", "p"])):
         draw().figure.canvas.draw()
+
+
+def tick_labels(axis):
+    axis.figure.canvas.draw()
+    return [label.get_text() for label in axis.get_ticklabels()], axis.get_offset_text().get_text()
+
+
+def test_what_is_round_off_is_not_magnified():
+    axes = plots.trajectory(T, np.column_stack([1 + 2e-16 * (np.arange(61) % 2), Z[:, 0]]), ["r", "p"], coordinates="r")
+    assert axes.get_ylim() == pytest.approx((0.95, 1.05)) and tick_labels(axes.yaxis)[1] == ""
+    plots.trajectory(T, Z, ["q", "p"], axes=axes)
+    assert axes.get_ylim()[0] < -1  # the range is that of all
+    residual = plots.measure(T, 1e-7 * (1 + 1e-9 * T), "structure residual")
+    low, high = residual.get_ylim()
+    assert low < 1e-7 and high >= 1e-6 and len(set(tick_labels(residual.yaxis)[0])) == len(tick_labels(residual.yaxis)[0])
+    kept = plots.drift(T, {"energy": 5 + 8.9e-16 * (np.arange(61) % 2)}).get_lines()[0].get_ydata()
+    assert kept.min() == pytest.approx(2.0**-53 * 5, rel=1e-3)  # and no zeros far below
 
 
 @pytest.mark.parametrize("kind, keyword, words", [
