@@ -168,6 +168,9 @@ class Run:
         "MEASURE: COLUMN" of the measures that were asked for; `pfaff.plots` has what each takes besides. All but animations take
         `axes`, which may have curves of other runs, and `label`, which stands before the entries of the legend.
 
+        An animation shows beads and the rods that constraints are, and registered pendula; of other systems `positions` says
+        where something is, a function of a state that gives places, shape (bodies, 2 or 3), and `rods` what joins it.
+
         >>> import matplotlib, pfaff
         >>> matplotlib.use("agg")
         >>> pfaff.run("pendulum", "verlet", step=0.1, time=10).plot("drift").get_xlabel()

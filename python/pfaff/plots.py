@@ -14,11 +14,12 @@ import numpy as np
 
 from ._arguments import dictionary, dictionary_or_none, real_array, text, unknown, whole, yes_or_no
 from ._arguments import path as path_of
+from ._bodies import bodies_of
 from ._curves import curves_in, draw, draw_logarithmic, label_axes, name_run
 from ._errors import InputError
 from ._numbers import float_of_number
 from ._plotted import given_axes, given_rods, given_series, given_states, given_times, given_units, label_of, pairs_of, places_of
-from ._style import axes_to_draw_into, families as report_families, refuse_unknown, settings, style, styled
+from ._style import axes_to_draw_into, families as report_families, look, refuse_unknown, settings, style, styled
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -184,7 +185,11 @@ def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
     """What `run.plot(kind, ...)` draws; further arguments are those of the function that draws it.
 
     The kinds are "trajectory", "phase portrait", "drift" (of conserved invariants), "constraints", "structure residual", "error",
-    "animation" (of beads and rods, see bodies()), and every column of a measure that was asked for, "MEASURE: COLUMN".
+    "animation" (see bodies()), and every column of a measure that was asked for, "MEASURE: COLUMN".
+
+    An animation shows beads and the rods that the constraints of the system are, and the pendula among the registered systems. Of other
+    systems `positions` says where something is: a function of a state, shape (dimension,), that gives places, shape (bodies, 2 or 3).
+    `rods` are drawn instead of those of the system, as bodies() takes them.
 
     Raises:
         InputError: an unknown kind or argument, with the nearest, and a kind that the run has nothing for.
@@ -238,29 +243,28 @@ def _drawn(run: Run, function: Callable[..., Axes], keywords: dict[str, Any], *a
 
 
 def _animation_of(run: Run, **keywords: Any) -> FuncAnimation:
-    """The positions of beads are the coordinates x0, y0, z0, x1, ... of a state."""
-    refuse_unknown(keywords, ["rods", "origin", "frames", "seconds"], "plot")
-    of_beads = [name for name in run.coordinates if name[0] in "xyz" and name[1:].isdigit()]
-    dimension = len({name[0] for name in of_beads})
-    if dimension not in (2, 3) or run.coordinates[: len(of_beads)] != of_beads:
-        raise InputError(f"plot: expected a system of beads and rods, got {run.system.name}; plots.bodies draws any positions")
-    return bodies(run.t, run.y[:, : len(of_beads)].reshape(len(run.t), -1, dimension), **keywords)
+    """The motion of the bodies of a run, see _bodies.py."""
+    refuse_unknown(keywords, ["positions", "rods", "frames", "seconds"], "plot")
+    places, rods, unit = bodies_of(run, keywords.pop("positions", None), keywords.pop("rods", None))
+    return bodies(run.t, places, rods, unit=unit, time_unit=_time_unit(run), **keywords)
 
 
 @styled
 def bodies(
-    t: Any, positions: Any, rods: Sequence[tuple[int, int]] | None = None, *, origin: bool = True, frames: int = 120,
-    seconds: float = 6.0
+    t: Any, positions: Any, rods: Sequence[tuple[int | Sequence[float], int | Sequence[float]]] | None = None, *, origin: bool = True, frames: int = 120,
+    seconds: float = 6.0, unit: str = "", time_unit: str = ""
 ) -> FuncAnimation:
     """An animation of bodies that rods join, such as pendula and chains: `.to_jshtml()` shows it in a notebook.
 
     Args:
         t: times, shape (n,).
         positions: shape (n, bodies, 2) or (n, bodies, 3), of which the first and the last component are drawn.
-        rods: pairs of numbers of bodies, counted from 0, of which -1 is the origin; without, each body hangs on the one
-            before it, and the first on the origin where `origin` is True.
+        rods: pairs of ends, which are numbers of bodies, counted from 0, of which -1 is the origin, or fixed places; without, each body
+            hangs on the one before it, and the first on the origin where `origin` is True.
         frames: how many pictures there are at most, evenly spaced in the samples.
         seconds: how long it takes.
+        unit: that of the positions.
+        time_unit: that of t.
     """
     from matplotlib import pyplot
     from matplotlib.animation import FuncAnimation
@@ -269,33 +273,35 @@ def bodies(
     lasts = float_of_number(seconds, "seconds", "a time above 0 s", above=0)
     expected = f"positions of shape ({len(times)}, bodies, 2 or 3), as there are times"
     places = real_array(positions, "positions", expected)
-    if places.ndim != 3 or places.shape[2] not in (2, 3) or len(places) != len(times):
+    if places.ndim != 3 or places.shape[2] not in (2, 3) or len(places) != len(times) or not places.size:
         raise InputError(f"positions: expected {expected}, got shape {places.shape}")
+    count, dimension = places.shape[1:]
+    pairs = given_rods([(k - 1, k) for k in range(0 if hangs else 1, count)] if rods is None else rods, count, dimension)
+    labels, clock = [label_of(name, unit, "unit") for name in ("x", "xyz"[dimension - 1])], text(time_unit, "time_unit").removeprefix("1")
     places = places[:, :, [0, -1]]
-    count = places.shape[1]
-    pairs = given_rods(rods, count) if rods is not None else [(k - 1, k) for k in range(0 if hangs else 1, count)]
-    pinned = np.concatenate([np.zeros((len(times), 1, 2)), places], axis=1)
+    fixed = [[end[0], end[-1]] for pair in pairs for end in pair if not isinstance(end, int)]
     shown = np.unique(np.linspace(0, len(times) - 1, min(most, len(times))).astype(int))
     figure, axes = pyplot.subplots(figsize=(4.6, 4.6), layout="constrained")
-    joined = {k for pair in pairs for k in pair}
-    extent = pinned if -1 in joined else places
-    low, high = extent.min(axis=(0, 1)), extent.max(axis=(0, 1))
-    reach = 0.55 * max(high - low) + 1e-12
-    centre = (low + high) / 2
-    axes.set(xlim=(centre[0] - reach, centre[0] + reach), ylim=(centre[1] - reach, centre[1] + reach), aspect="equal")
-    lines = [axes.plot([], [], color="#63636a", linewidth=1.2)[0] for _ in pairs]
-    (dots,) = axes.plot([], [], linestyle="none", marker="o", markersize=7)
+    extent = np.concatenate([places.reshape(-1, 2), np.reshape(fixed, (-1, 2))])
+    extent = extent[np.isfinite(extent).all(axis=1)] if np.isfinite(extent).all(axis=1).any() else np.zeros((1, 2))
+    low, high = extent.min(axis=0), extent.max(axis=0)
+    reach, centre = 0.55 * max(high - low) or 1.0, (low + high) / 2
+    axes.set(xlim=(centre[0] - reach, centre[0] + reach), ylim=(centre[1] - reach, centre[1] + reach), aspect="equal", xlabel=labels[0], ylabel=labels[1])
+    lines = [axes.plot([], [], color=settings()["axes.edgecolor"], linewidth=1.2)[0] for _ in pairs]
+    if fixed:
+        axes.plot(*np.transpose(fixed), linestyle="none", marker="s", markersize=4, color=settings()["text.color"])
+    (dots,) = axes.plot([], [], linestyle="none", marker="o", markersize=7, color=look(0)["color"])
     title = axes.set_title("")
 
-    def draw(frame: int) -> list:
-        state = pinned[frame]
-        for line, (a, b) in zip(lines, pairs):
-            line.set_data(state[[a + 1, b + 1], 0], state[[a + 1, b + 1], 1])
-        dots.set_data(state[1:, 0], state[1:, 1])
-        title.set_text(f"t = {times[frame]:.3g}")
+    def picture(frame: int) -> list:
+        state = places[frame]
+        for line, pair in zip(lines, pairs):
+            line.set_data(*np.transpose([state[end] if isinstance(end, int) else [end[0], end[-1]] for end in pair]))
+        dots.set_data(state[:, 0], state[:, 1])
+        title.set_text(f"t = {times[frame]:.3g} {clock}".strip())
         return [*lines, dots, title]
 
-    animation = FuncAnimation(figure, draw, frames=shown, interval=1000 * lasts / len(shown), blit=False)
+    animation = FuncAnimation(figure, picture, frames=shown, interval=1000 * lasts / len(shown), blit=False)
     pyplot.close(figure)  # a notebook would also show its first picture
     return animation
 
