@@ -43,8 +43,11 @@ def curves_in(axes: Axes) -> dict[Line2D, Curve]:
 def draw(axes: Axes, x: np.ndarray, y: np.ndarray, name: str, *, unit: str = "", label: str = "", quantity: str = "", dotted: bool = False) -> Line2D:
     """A curve in the next colour and dashes of the axes, or in the next marks. One point alone has a mark."""
     points = np.isfinite(x) & np.isfinite(y)
-    marked = {"marker": "o", "markersize": settings()["lines.markersize"]} if points.sum() == 1 else {}
-    (line,) = axes.plot(x, y, **{**look(len(curves_in(axes)), dotted), **marked})
+    marked: dict[str, Any] = {"marker": "o", "markersize": settings()["lines.markersize"]} if points.sum() == 1 else {}
+    of_look = look(len(curves_in(axes)), dotted)
+    if points.sum() < 2:
+        of_look.pop("markevery", None)  # marks at equal ways along a curve, which has no length
+    (line,) = axes.plot(x, y, **{**of_look, **marked})
     _CURVES[line] = Curve(name, "" if unit == "1" else unit, label, quantity, entry=line.get_label())
     return line
 
@@ -134,7 +137,7 @@ def _legend(axes: Axes) -> None:
         handles = [*handles[: MOST_ENTRIES - 1], Line2D([], [], linestyle="none", label=f"and {left} more")]
     beside = axes.figure.get_layout_engine() is not None
     place = {"loc": "upper left", "bbox_to_anchor": (1, 1), "frameon": False} if beside else {"loc": "best", "facecolor": of["figure.facecolor"], "edgecolor": "none", "framealpha": 0.8}
-    axes.legend(handles=handles, fontsize=of["legend.fontsize"], labelcolor=of["text.color"], handlelength=3, **place)
+    axes.legend(handles=handles, fontsize=of["legend.fontsize"], labelcolor=of["text.color"], handlelength=3, markerscale=1.4, **place)
 
 
 def _widen(axes: Axes) -> None:

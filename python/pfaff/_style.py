@@ -120,4 +120,5 @@ def look(number: int, dotted: bool = False) -> dict[str, Any]:
     if dotted:
         return {"color": family.light, "linestyle": "none", "marker": family.mark, "markersize": 2.5, "markeredgewidth": 0.4,
                 "fillstyle": "none" if number % 2 else "full"}
-    return {"color": family.light, "linestyle": dashes[number % len(dashes)], "linewidth": settings()["lines.linewidth"]}
+    marked = {"marker": family.mark, "markevery": 0.12, "markersize": 4} if number >= len(dashes) else {}  # where dashes come again
+    return {"color": family.light, "linestyle": dashes[number % len(dashes)], "linewidth": settings()["lines.linewidth"], **marked}

@@ -23,6 +23,7 @@ def no_figure_is_left():
 def picture(animation, frame):
     """The places of the bodies in a picture, and the rods as pairs of ends, {(x, y), (x, y)}."""
     animation._draw_frame(frame)
+    animation._draw_was_started = True  # nothing is shown
     lines = [np.array(line.get_data()).T for line in animation._fig.axes[0].get_lines()]
     marked = [line.get_linestyle() == "None" for line in animation._fig.axes[0].get_lines()]
     rods = [line for line, mark in zip(lines, marked) if not mark]

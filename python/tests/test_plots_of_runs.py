@@ -110,6 +110,16 @@ def test_lines_differ_in_grey(spherical):
     assert {line.get_color() for line in lines} <= families
 
 
+def test_lines_that_have_the_same_dashes_differ_in_their_marks(kepler):
+    lines = kepler[1].plot("drift", axes=kepler[0].plot("drift")).get_lines()
+    looks = [(str(line._unscaled_dash_pattern if hasattr(line, "_unscaled_dash_pattern") else line._dash_pattern), line.get_marker()) for line in lines]
+    assert len(lines) == 8 and len(set(looks)) == 8
+    empty = plots.trajectory([], np.empty((0, 9)), list("abcdefghi"))
+    plots.trajectory(T[:1], np.ones((1, 9)), list("abcdefghi")).figure.canvas.draw()
+    plots.trajectory(T[:2], np.full((2, 9), np.nan), list("abcdefghi")).figure.canvas.draw()
+    empty.figure.canvas.draw()
+
+
 def test_axes_of_the_caller_have_the_same_style(kepler):
     from matplotlib import pyplot
 
@@ -134,8 +144,9 @@ def overlaps(axes):
     return sum(int(box.contains(*axes.transData.transform(point))) for line in axes.get_lines() for point in np.array(line.get_data()).T)
 
 
-def test_legends_hide_nothing(spherical):
-    for axes in (spherical.plot(), spherical.plot("constraints"), spherical.plot("drift")):
+def test_legends_hide_nothing():
+    run = pfaff.run("spherical-pendulum", "rattle", step=0.01, time=10)
+    for axes in (run.plot(), run.plot("constraints"), run.plot("drift")):
         assert overlaps(axes) == 0
         figure, box = axes.figure.bbox, axes.get_legend().get_window_extent()
         assert box.x1 <= figure.x1 and box.y0 >= figure.y0
