@@ -1,12 +1,12 @@
 """What is drawn: arrays, names and axes as the functions of pfaff.plots take them."""
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._arguments import dictionary, real_array, shown, text, texts, unknown
+from ._arguments import dictionary, dictionary_or_none, real_array, shown, text, texts, unknown
 from ._errors import InputError
 
 if TYPE_CHECKING:
@@ -75,13 +75,37 @@ def pairs_of(curves: Any) -> dict[str, tuple[np.ndarray, np.ndarray]]:
     return pairs
 
 
-def given_rods(rods: Any, count: int) -> list[tuple[int, int]]:
-    """Pairs of numbers of so many bodies, of which -1 is the origin."""
-    expected = f"rods between bodies 0 .. {count - 1}, as pairs of their numbers, of which -1 is the origin"
-    array = real_array(rods, "rods", expected)
-    if array.size and (array.ndim != 2 or array.shape[1] != 2):
+def given_units(units: Any) -> dict[str, str]:
+    """Units by the names of what has them."""
+    given = dictionary_or_none(units, "units", "a dictionary of units by the names of what has them")
+    return {name: text(unit, f"units['{name}']") for name, unit in given.items()}
+
+
+Rod = tuple["int | list[float]", "int | list[float]"]
+
+
+def given_rods(rods: Any, count: int, dimension: int) -> list[Rod]:
+    """Pairs of the numbers of so many bodies, of which -1 is the origin, or of fixed places instead."""
+    expected = f"rods between bodies 0 .. {count - 1}, as pairs of their numbers, of which -1 is the origin, or of places, [x, y]"
+    if not isinstance(rods, Iterable) or isinstance(rods, (str, bytes, Mapping)):
         raise InputError(f"rods: expected {expected}, got {shown(rods)}")
-    for pair in array.reshape(-1, 2):
-        if not all(-1 <= k < count and k == int(k) for k in pair):
-            raise InputError(f"rods: expected {expected}, got ({pair[0]:g}, {pair[1]:g})")
-    return [(int(a), int(b)) for a, b in array.reshape(-1, 2)]
+    pairs: list[Rod] = []
+    for rod in rods:
+        ends = [_end(one, count, dimension) for one in rod] if isinstance(rod, Iterable) and not isinstance(rod, (str, bytes, Mapping)) else []
+        if len(ends) != 2 or ends[0] is None or ends[1] is None:
+            raise InputError(f"rods: expected {expected}, got {shown(rod)}")
+        pairs.append((ends[0], ends[1]))
+    return pairs
+
+
+def _end(given: Any, count: int, dimension: int) -> int | list[float] | None:
+    """The end of a rod: the number of a body or a place; None where it is neither."""
+    try:
+        one = real_array(given, "rods", "numbers")
+    except InputError:
+        return None
+    if one.shape == (dimension,) and np.isfinite(one).all():
+        return [float(x) for x in one]
+    if one.shape or not -1 <= one < count or one != int(one):
+        return None
+    return [0.0] * dimension if one == -1 else int(one)

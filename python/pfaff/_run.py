@@ -165,7 +165,11 @@ class Run:
         """Draws the run in the style of the report, and returns matplotlib's axes, or an animation.
 
         The kinds are "trajectory", "phase portrait", "drift", "constraints", "structure residual", "error", "animation" and
-        "MEASURE: COLUMN" of the measures that were asked for; `pfaff.plots` has what each takes besides.
+        "MEASURE: COLUMN" of the measures that were asked for; `pfaff.plots` has what each takes besides. All but animations take
+        `axes`, which may have curves of other runs, and `label`, which stands before the entries of the legend.
+
+        An animation shows beads and the rods that constraints are, and registered pendula; of other systems `positions` says
+        where something is, a function of a state that gives places, shape (bodies, 2 or 3), and `rods` what joins it.
 
         >>> import matplotlib, pfaff
         >>> matplotlib.use("agg")
@@ -173,7 +177,7 @@ class Run:
         't [s]'
 
         Raises:
-            InputError: an unknown kind, and one that the run has nothing for.
+            InputError: an unknown kind or argument, and a kind that the run has nothing for.
             ImportError: matplotlib is not installed.
         """
         from . import plots

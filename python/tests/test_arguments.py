@@ -64,7 +64,9 @@ CALLS = {
     "Integration.go_on_from": (lambda **k: integration().go_on_from(**k), {"state": [1, 2]}, {"state": {"numbers"}, "t0": NUMBER | {"nothing"}, "step": NUMBER | {"nothing"}}),
     "Integration.jacobian": (lambda **k: integration().jacobian(**k), {"n": 2}, {"n": {"number"}}),
     "Run.sensitivity": (lambda **k: pfaff.run(duffing, "verlet", step=0.1, time=1).sensitivity(**k), {}, {"parameter": ()}),
-    "Run.plot": (lambda **k: pfaff.run(duffing, "verlet", step=0.1, time=1).plot(**k), {}, {"kind": (), "axes": {"nothing"}, "coordinates": {"nothing"}}),
+    "Run.plot": (lambda **k: pfaff.run(duffing, "verlet", step=0.1, time=1).plot(**k), {}, {"kind": (), "axes": {"nothing"}, "coordinates": {"nothing"}, "label": {"text", "empty text"}}),
+    "Run.plot animation": (lambda **k: pfaff.run("n-pendulum", "rattle", step=0.01, time=0.1).plot("animation", **k), {}, {
+        "positions": {"nothing"}, "rods": {"nothing", "empty"}, "frames": {"number"}, "seconds": {"number"}}),
     "ensemble": (pfaff.ensemble, {"system": duffing, "method": "verlet", "states": [[1, 2]], "step": 0.1, "steps": 5}, {
         "system": (), "method": (), "states": (), "step": NUMBER, "steps": {"number"}, "every": {"number"}, "t0": NUMBER, "threads": {"number", "nothing"},
         "callback": {"function", "nothing"}, "precision": (), **PARAMETERS}),
@@ -105,15 +107,16 @@ CALLS = {
 T, Z = np.linspace(0, 1, 4), np.ones((4, 2))
 AXES = {"axes": {"nothing"}}
 UNIT = {"text", "empty text"}
+UNITS = {"units": {"nothing", "empty dictionary", "dictionary"}, "label": UNIT}
 PLOTS = {
-    "trajectory": ({"t": T, "z": Z, "names": ["q", "p"]}, {"t": (), "z": (), "names": (), "coordinates": {"nothing"}, "time_unit": UNIT, **AXES}),
-    "phase_portrait": ({"t": T, "z": Z, "names": ["q", "p"]}, {"t": (), "z": (), "names": (), "coordinates": {"nothing"}, **AXES}),
-    "drift": ({"t": T, "values": {"energy": T}}, {"t": (), "values": {"empty dictionary"}, "time_unit": UNIT, "relative": {"truth"}, **AXES}),
-    "measure": ({"t": T, "values": T, "name": "error"}, {"t": (), "values": (), "name": UNIT, "unit": UNIT, "time_unit": UNIT, **AXES}),
+    "trajectory": ({"t": T, "z": Z, "names": ["q", "p"]}, {"t": (), "z": (), "names": (), "coordinates": {"nothing"}, "time_unit": UNIT, **UNITS, **AXES}),
+    "phase_portrait": ({"t": T, "z": Z, "names": ["q", "p"]}, {"t": (), "z": (), "names": (), "coordinates": {"nothing"}, **UNITS, **AXES}),
+    "drift": ({"t": T, "values": {"energy": T}}, {"t": (), "values": {"empty dictionary"}, "time_unit": UNIT, "relative": {"truth"}, **UNITS, **AXES}),
+    "measure": ({"t": T, "values": T, "name": "error"}, {"t": (), "values": (), "name": UNIT, "unit": UNIT, "time_unit": UNIT, "label": UNIT, **AXES}),
     "work_precision": ({"curves": {"one": ([1, 2], [3, 4])}}, {
         "curves": {"empty dictionary"}, "families": {"nothing", "empty dictionary", "dictionary"}, "work": UNIT, "error": UNIT, **AXES}),
     "bodies": ({"t": T, "positions": np.ones((4, 2, 2))}, {
-        "t": (), "positions": (), "rods": {"nothing", "empty"}, "origin": {"truth"}, "frames": {"number"}, "seconds": {"number"}}),
+        "t": (), "positions": (), "rods": {"nothing", "empty"}, "origin": {"truth"}, "frames": {"number"}, "seconds": {"number"}, "unit": UNIT, "time_unit": UNIT}),
 }
 # Arguments that are positional alone, by what messages call them.
 POSITIONAL = {pfaff.System: "name", pfaff.Method: "name", pfaff.table: "table"}

@@ -57,42 +57,24 @@ def test_work_and_precision_have_the_colours_of_families():
     assert [line.get_color() for line in lines] == ["#8f3413", "#157b62"]
 
 
-def test_bodies_move_as_they_are_told():
-    places = np.stack([np.column_stack([np.sin(T), -np.cos(T)]), np.column_stack([2 * np.sin(T), -2 * np.cos(T)])], axis=1)
-    animation = plots.bodies(T, places, frames=5)
-    animation._draw_frame(30)
-    dots = animation._fig.axes[0].get_lines()[-1]
-    assert np.array(dots.get_data()).T == pytest.approx(places[30])
-    html = animation.to_jshtml()
-    assert html.count("data:image/png") >= 5
-
-
 def test_a_run_is_drawn_by_the_kind_of_plot():
     run = pfaff.run("spherical-pendulum", "rattle", step=0.01, time=1, measures=["reversibility"])
     assert np.array_equal(drawn(run.plot(coordinates="x").get_lines()[0]), [run.t, run["x"]])
-    assert run.plot("phase portrait", coordinates=["x", "y"]).get_ylabel() == "y"
-    assert {line.get_label() for line in run.plot("drift").get_lines()} == set(run.drift)
+    assert run.plot("phase portrait", coordinates=["x", "y"]).get_ylabel() == "y [m]"
+    assert {line.get_label() for line in run.plot("drift").get_lines()} == {f"{name} [{run.units[name]}]" for name in run.drift}
     assert {line.get_label() for line in run.plot("constraints").get_lines()} == set(run.constraints)
     axes = run.plot("reversibility: distance")
     steps = np.asarray(run.measures["reversibility"]["step"])
     assert axes.get_ylabel() == "reversibility: distance" and drawn(axes.get_lines()[0])[0] == pytest.approx(0.01 * steps)
     with pytest.raises(pfaff.InputError, match="did you mean 'drift'"):
         run.plot("drfit")
-    with pytest.raises(pfaff.InputError, match="expected a system of beads and rods"):
-        run.plot("animation")
 
 
-def test_the_structure_residual_and_pendula_are_drawn():
+def test_the_structure_residual_is_drawn():
     run = pfaff.run("pendulum", "verlet", step=0.1, time=5)
     axes = run.plot("structure residual")
     known = np.isfinite(run.structure)
     assert np.array_equal(drawn(axes.get_lines()[0])[0], run.t[known]) and axes.get_ylabel() == "structure residual"
-    swinging = pfaff.run("n-pendulum", "rattle", bobs=2, step=0.01, time=1)
-    animation = swinging.plot("animation", frames=3)
-    animation._draw_frame(len(swinging.t) - 1)
-    animation._draw_was_started = True  # nothing is shown
-    dots = np.array(animation._fig.axes[0].get_lines()[-1].get_data()).T
-    assert dots.ravel() == pytest.approx(swinging.y[-1, :4])
 
 
 def test_the_settings_of_the_caller_stay():
@@ -115,8 +97,8 @@ def test_figures_are_written_and_put_into_pages(tmp_path):
     (lambda: plots.trajectory(T, Z, ["q", "p"], coordinates="r"), "unknown coordinate 'r'"),
     (lambda: plots.phase_portrait(T, Z, ["q", "p"], coordinates=["q"]), "expected two coordinates"),
     (lambda: plots.drift(T, {"energy": T[1:]}), "values['energy']: expected 61 numbers, one for each time"),
-    (lambda: plots.bodies(T, Z), "expected positions of shape"),
-    (lambda: plots.bodies(T, np.zeros((61, 2, 2)), rods=[(0, 2)]), "expected rods between bodies 0 .. 1"),
+    (lambda: plots.trajectory(T, Z, ["q", "p"], cordinates="q"), "did you mean 'coordinates'"),
+    (lambda: plots.drift(T, {"energy": T}, units={"energy": 3}), "units['energy']: expected a text, got 3"),
 ])
 def test_bad_input_is_refused_in_one_line(call, words):
     with pytest.raises(pfaff.InputError) as refused:

@@ -58,6 +58,27 @@ std::vector<std::size_t> touched(const std::vector<double>& gradient, std::size_
   return points;
 }
 
+// Whether a constraint with this gradient holds two points at a distance: along the line between them, and
+// opposite.
+bool holds_apart(const std::vector<double>& gradient, Gradients& gradients, std::size_t first,
+                 std::size_t second, std::size_t d) {
+  double along = 0, apart = 0, size = 0;
+  for (std::size_t i = 0; i < d; ++i) {
+    const double way = gradients.position(first * d + i) - gradients.position(second * d + i);
+    const double slope = gradient[first * d + i];
+    along += slope * way;
+    apart += way * way;
+    size += slope * slope;
+  }
+  for (std::size_t i = 0; i < d; ++i) {
+    const double way = gradients.position(first * d + i) - gradients.position(second * d + i);
+    const double slope = gradient[first * d + i], other = gradient[second * d + i];
+    if (!(std::abs(slope + other) + std::abs(slope - along / apart * way) <= 1e-9 * std::sqrt(size)))
+      return false;
+  }
+  return true;
+}
+
 // The place a that the constraint k holds a point at a distance from. Its gradient g = c (q - a) keeps its
 // direction along itself, and grows there by c times the way. Empty where it does otherwise.
 std::vector<double> fixed_place(Gradients& gradients, std::size_t k, std::size_t point, std::size_t d) {
@@ -87,15 +108,17 @@ std::vector<double> fixed_place(Gradients& gradients, std::size_t k, std::size_t
 }  // namespace
 
 std::vector<Link> links_of(const Model& model, double t, const std::vector<double>& state) {
-  if (!model.holonomic()) return {};
+  if (!model.content().has(Facet::holonomic)) return {};  // beside constraints of velocities, too
   const std::size_t d = dimension_of_points(model, state.size() / 2);
   if (d == 0) return {};
   Gradients gradients(model, t, state);
   if (!gradients.place()) return {};
   std::vector<Link> links;
   for (std::size_t k = 0; k < gradients.count(); ++k) {
-    const std::vector<std::size_t> points = touched(gradients.of(k), d);
-    if (points.size() == 2) links.push_back({points[0], points[1], {}});
+    const std::vector<double> gradient = gradients.of(k);
+    const std::vector<std::size_t> points = touched(gradient, d);
+    if (points.size() == 2 && holds_apart(gradient, gradients, points[0], points[1], d))
+      links.push_back({points[0], points[1], {}});
     if (points.size() != 1) continue;
     if (std::vector<double> place = fixed_place(gradients, k, points[0], d); !place.empty())
       links.push_back({points[0], std::nullopt, std::move(place)});

@@ -18,10 +18,10 @@ struct Link {
 };
 
 /// The links among the points of a model at a state (q, p). They are found from the gradients of the
-/// constraints: one that touches two points joins them; one that touches one point and points away from a
-/// fixed place, at a length in proportion to the distance from it, joins the point to that place. Other
-/// constraints join nothing. Empty where the positions are not points x0, y0, ... of two or three
-/// coordinates, or are more than a thousand points.
+/// constraints: one that touches two points, along the line between them, joins them; one that touches one
+/// point and points away from a fixed place, at a length in proportion to the distance from it, joins the
+/// point to that place. Other constraints join nothing. Empty where the positions are not points x0, y0, ...
+/// of two or three coordinates, or are more than a thousand points.
 std::vector<Link> links_of(const Model& model, double t, const std::vector<double>& state);
 
 }  // namespace pfaff

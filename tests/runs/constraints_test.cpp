@@ -126,6 +126,7 @@ TEST(Links, AreTheRodsOfPoints) {
   EXPECT_EQ(links_as_text("n-pendulum", {{"bobs", "2"}, {"dimension", "3"}}), (Texts{"0-1", "0@0,0,0"}));
   EXPECT_EQ(links_as_text("ring", {{"beads", "4"}, {"dimension", "2"}}), (Texts{"0-1", "0-3", "1-2", "2-3"}));
   EXPECT_EQ(links_as_text("humanoid", {}).size(), 12U);
+  EXPECT_EQ(links_as_text("skate-chain", {{"beads", "3"}}), (Texts{"0-1", "0@0,0", "1-2"}));
   EXPECT_EQ(links_as_text("torus-particle", {}), Texts{});
   EXPECT_EQ(links_as_text("kepler", {}), Texts{});
 }
