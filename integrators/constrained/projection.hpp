@@ -210,8 +210,13 @@ struct SymmetricallyProjected : Base {
       status = c.linearise(t + h, q, momentum);
       if (status != Status::converged) break;
       if constexpr (!moves_positions) w.shift.apply(c, w.end);
-      w.shift.correct(c, t + h, q, momentum, convergence);
+      // At rest the shift holds what the base method adds, and both together round as they do.
       VectorCorrections<T> moved(convergence.each()), kicked(convergence.each());
+      for (std::size_t k = 0; k < n; ++k) {
+        if constexpr (moves_positions) moved.against(w.shift.move(k));
+        kicked.against(w.shift.kick(k));
+      }
+      w.shift.correct(c, t + h, q, momentum, convergence);
       for (std::size_t k = 0; k < n; ++k) {
         if constexpr (moves_positions) {
           moved.against(q[k]);

@@ -305,3 +305,15 @@ def test_a_tolerance_below_round_off_is_refused():
     with pytest.raises(pfaff.InputError, match="^tolerance: 1e-40 is below round-off, which is 1.93e-34; expected at least that$"):
         pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance="1e-40", precision="quad")
     pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance="1e-30", precision="quad").steps(1)
+
+
+@pytest.mark.parametrize("length, gravity, step", [
+    (0.8905316463357724, 80.27938927960153, 0.03459434948929595), (2.143557051222946, 74.17629302757872, 0.024285780693430792),
+    (2.597433036397459, 0.3903512636844095, 0.048396097440242584), (1.297073026454934, 0.19821280276726197, 0.013708741165948151)])
+def test_a_symmetric_projection_converges_at_rest(length, gravity, step):
+    """What the shift holds rounds, where nothing moves."""
+    hanging = pfaff.system(coordinates={"q": 2, "p": 2}, initial=[0, -length, 0, 0], holonomic=lambda q: q @ q - length * length)(
+        lambda q, p: p @ p / 2 + gravity * q[1])
+    it = pfaff.Integration(hanging, "projected-gauss", step=step)
+    it.steps(100)
+    assert np.abs(it.state - [0, -length, 0, 0]).max() < 1e-12 * gravity
