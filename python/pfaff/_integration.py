@@ -237,6 +237,8 @@ def with_parameters(system: Any, method: Any, parameters: Mapping[str, Any], of_
     InputError for a name that neither knows, with the nearest, and for one that both know.
     """
     split = (dictionary_or_none(of_system, "system_parameters"), dictionary_or_none(of_method, "method_parameters"))
+    if not parameters:
+        return as_system(system, **split[0]), as_method(method, **split[1])
     # Names are known before objects are made, since some systems cannot be made without their parameters.
     known = (_names_of(system, as_system, _pfaff.system_parameter_names), _names_of(method, as_method, _pfaff.method_parameter_names))
     for key, value in parameters.items():

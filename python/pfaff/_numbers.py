@@ -79,9 +79,12 @@ def text_of_number(value: Any, what: str) -> str:
 
 def float_of_number(value: Any, what: str, expected: str = "a number", above: float | None = None) -> float:
     """A finite number as a float, to which a text such as "1/3" is rounded; one `above` another where that is given."""
-    text = value if isinstance(value, str) else text_of_constant(value)
     try:
-        found = float(fractions.Fraction(text)) if text is not None else math.nan
+        if isinstance(value, (int, float)) and not isinstance(value, bool):
+            found = float(value)
+        else:
+            text = value if isinstance(value, str) else text_of_constant(value)
+            found = float(fractions.Fraction(text)) if text is not None else math.nan
     except (ValueError, ZeroDivisionError, OverflowError):
         found = math.nan
     if not math.isfinite(found) or above is not None and not found > above:

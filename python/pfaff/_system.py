@@ -96,17 +96,17 @@ class System:
         system._begin(definition, parameters, compile)
         return system
 
-    @property
+    @functools.cached_property
     def name(self) -> str:
         """The name of the system."""
         return self.model.name
 
-    @property
+    @functools.cached_property
     def dimension(self) -> int:
         """The number of coordinates."""
         return self.model.dimension
 
-    @property
+    @functools.cached_property
     def coordinates(self) -> tuple[str, ...]:
         """The names of the coordinates, in the order of a state."""
         return tuple(name for name, _ in self.model.coordinates)
