@@ -10,15 +10,22 @@ template <class T>
 MeasuredStep<T>::MeasuredStep(const MethodInstance& method, std::shared_ptr<const Model> model,
                               const std::vector<Real>& start, const Real& t, const Real& h, int warm_up,
                               bool carried)
-    : method_(method),
-      model_(std::move(model)),
-      begin_(t),
-      t_(T(t) + T(warm_up) * T(h)),
-      h_(h),
-      warm_up_(warm_up),
-      carried_(carried || warm_up > 0) {
+    : method_(method), model_(std::move(model)), h_(h), warm_up_(warm_up), carried_(carried || warm_up > 0) {
+  move_to(start, t);
+}
+
+template <class T>
+void MeasuredStep<T>::move_to(const std::vector<Real>& start, const Real& t) {
+  begin_ = T(t);
+  t_ = T(t) + T(warm_up_) * h_;
+  begin_state_.clear();
   for (const Real& x : start) begin_state_.push_back(T(x));
   start_ = begin_state_;
+  taken_ = false;
+  status_ = Status::converged;
+  end_.reset();
+  jacobian_.reset();
+  scales_.clear();
 }
 
 template <class T>

@@ -44,6 +44,10 @@ class MeasuredStep {
                const std::vector<Real>& start, const Real& t, const Real& h, int warm_up = 0,
                bool carried = false);
 
+  /// Moves the step to another state and time: what was found is forgotten, and the stepper stays, which
+  /// takes longer to make than many a step.
+  void move_to(const std::vector<Real>& start, const Real& t);
+
   [[nodiscard]] const MethodInstance& method() const { return method_; }
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
   /// The time at which the measured step begins, and its size.

@@ -2,6 +2,7 @@
 // far from the start, or at steps so large that an iteration is cut off.
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/kinks.hpp>
@@ -160,18 +161,23 @@ RunInDouble follow(const MethodOnModel& on, const Real& step, bool compared) {
   return found;
 }
 
-// The claim in the step from a place, once more where its residual may be rounding.
+// The claim in a step from a place, once more where its residual may be rounding.
+template <class T>
+double residual_in(MeasuredStep<T>& step, const MethodOnModel& on, const ClaimCheck& row, const Place& place,
+                   const Real& h) {
+  const double residual = residual_of(row, step);
+  if (!(residual > tolerance<T>())) return residual;
+  const auto moved = of_moved_starts<T>(place.z, [&](const std::vector<Real>& start) {
+    MeasuredStep<T> again(on.method(), on.model(), start, place.t, h, step.warm_up());
+    return residual_of(row, again);
+  });
+  return is_rounding(moved, tolerance<T>()) ? 0 : residual;
+}
 template <class T>
 double residual_at(const MethodOnModel& on, const ClaimCheck& row, const Place& place, const Real& h,
                    int warm_up) {
   MeasuredStep<T> step(on.method(), on.model(), place.z, place.t, h, warm_up);
-  const double residual = residual_of(row, step);
-  if (!(residual > tolerance<T>())) return residual;
-  const auto moved = of_moved_starts<T>(place.z, [&](const std::vector<Real>& start) {
-    MeasuredStep<T> again(on.method(), on.model(), start, place.t, h, warm_up);
-    return residual_of(row, again);
-  });
-  return is_rounding(moved, tolerance<T>()) ? 0 : residual;
+  return residual_in(step, on, row, place, h);
 }
 
 // Rows of the claims that the method makes and that a single step shows.
@@ -197,13 +203,23 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
              Check check) {
   check.tolerance = most_left_by_stopping * tolerance<double>() * on.growth_of_round_off();
   check.result = CheckResult::pass;
-  const auto at = [&]<class T>(T /*scalar*/, const Place& place) {
-    return on.history() ? residual_at<T>(on, row, {on.start(), on.time()}, h, place.steps)
-                        : residual_at<T>(on, row, place, h, 0);
+  std::optional<MeasuredStep<double>> step;  // which is moved from place to place
+  const auto in_double = [&](const Place& place) {
+    if (on.history()) return residual_at<double>(on, row, {on.start(), on.time()}, h, place.steps);
+    if (step) {
+      step->move_to(place.z, place.t);
+    } else {
+      step.emplace(on.method(), on.model(), place.z, place.t, h);
+    }
+    return residual_in(*step, on, row, place, h);
+  };
+  const auto in_quad = [&](const Place& place) {
+    return on.history() ? residual_at<Quad>(on, row, {on.start(), on.time()}, h, place.steps)
+                        : residual_at<Quad>(on, row, place, h, 0);
   };
   for (const Place& place : places) {
     if (row.from_jacobian && !on.history() && place.steps % (steps_of_run / looks) != 0) continue;
-    const double residual = at(0.0, place);
+    const double residual = in_double(place);
     if (std::isnan(residual)) break;  // steps that do not converge are no claim's fault
     const bool lost = residual > check.tolerance;
     // The equations of an implicit step that is long, or near a kink of the field, may have several
@@ -212,7 +228,7 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     if (lost && leads_back(row.claim) && near_a_kink(on, place, h)) continue;
     check.measured = std::max(check.measured, residual);
     if (!lost) continue;
-    if (!on.double_coefficients() && falls_with_the_precision(residual, at(Quad(), place))) continue;
+    if (!on.double_coefficients() && falls_with_the_precision(residual, in_quad(place))) continue;
     check.result = CheckResult::fail;
     check.reason = "lost in step " + std::to_string(place.steps + 1);
     if (h != on.step_size()) check.reason += ", of size " + to_string(h.quad(), 3);

@@ -132,9 +132,16 @@ Quad word_coefficient(const std::vector<Quad>& weights, const Word& word) {
 std::vector<Quad> yoshida_weights(int order) { return jumped(order, 1); }
 std::vector<Quad> suzuki_weights(int order) { return jumped(order, 2); }
 
+// Found once: that takes as long as hundreds of steps.
 std::vector<Quad> kahan_li_weights(int order) {
-  if (order == 6) return polished(published_order_6, order);
-  if (order == 8) return polished(published_order_8, order);
+  if (order == 6) {
+    static const std::vector<Quad> of_order_6 = polished(published_order_6, 6);
+    return of_order_6;
+  }
+  if (order == 8) {
+    static const std::vector<Quad> of_order_8 = polished(published_order_8, 8);
+    return of_order_8;
+  }
   throw std::invalid_argument("kahan_li_weights: order " + std::to_string(order) + ", expected 6 or 8");
 }
 

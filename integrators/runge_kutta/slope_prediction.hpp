@@ -28,8 +28,6 @@ class SlopePrediction {
   using T = Scalar<P>;
   explicit SlopePrediction(const P& p) {
     for (State<P>& slope : nearest_) slope = p.make_state();
-    for (int rows = 1; rows <= static_cast<int>(Most); ++rows)
-      weights_[static_cast<std::size_t>(rows - 1)] = weights_of(rows);
   }
 
   /// Takes the slope of row j = 1, 2, ....
@@ -72,6 +70,16 @@ class SlopePrediction {
     }
     return w;
   }
+  // Of each number of rows. They are found once: in quad that takes longer than a step.
+  static const std::array<Weights, Most>& all_weights() {
+    static const std::array<Weights, Most> all = [] {
+      std::array<Weights, Most> made;
+      for (int rows = 1; rows <= static_cast<int>(Most); ++rows)
+        made[static_cast<std::size_t>(rows - 1)] = weights_of(rows);
+      return made;
+    }();
+    return all;
+  }
   // P_i of coordinate k, for i rows.
   [[nodiscard]] T prediction(int rows, std::size_t k) const {
     const auto count = static_cast<std::size_t>(rows);
@@ -88,7 +96,7 @@ class SlopePrediction {
   }
 
   std::array<State<P>, Most> nearest_;
-  std::array<Weights, Most> weights_{};  // of each number of rows
+  const std::array<Weights, Most>& weights_ = all_weights();
 };
 
 }  // namespace pfaff
