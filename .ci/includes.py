@@ -8,6 +8,7 @@
   together, others come before the one that includes its header first.
 
   includes.py [--no-compile] [--root DIRECTORY]
+  includes.py --chains FILE   prints the headers that a file lists as they are compiled, those of a line one after the other
 
 Exit status: 0 the rules hold, 1 a rule is broken (one line for each place), 2 wrong usage.
 """
@@ -123,10 +124,39 @@ def closure(graph, header):
     return found
 
 
-def compiled_alone(root, headers, arrows):
+def chains(headers, held):
+    """The headers in as few chains as possible, in each of which every header includes the one before, directly or through
+    others. A chain is compiled at once, which shows as much: each header comes after what it includes anyway."""
+    following, before = {}, {}
+
+    def attach(header, tried):
+        for other in headers:
+            if header in held[other] and other not in held[header] and other not in tried:
+                tried.add(other)
+                if other not in before or attach(before[other], tried):
+                    following[header], before[other] = other, header
+                    return True
+        return False
+
+    for header in headers:
+        attach(header, set())
+    for first in headers:
+        if first not in before:
+            chain = [first]
+            while chain[-1] in following:
+                chain.append(following[chain[-1]])
+            yield chain
+
+
+def graph_of(arrows):
     graph = defaultdict(set)
     for source, _, target in arrows:
         graph[source].add(target)
+    return graph
+
+
+def compiled_alone(root, headers, arrows):
+    graph = graph_of(arrows)
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "pfaff").symlink_to(root)
         compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-w", "-I", folder, "-isystem", "/usr/include/eigen3",
@@ -141,28 +171,47 @@ def compiled_alone(root, headers, arrows):
             done = run("-x", "c++-header", str(name), "-o", f"{name}.gch")
             return name.name if done.returncode == 0 else None  # what is wrong is said of the header itself
 
-        def compile_one(header):
-            held = closure(graph, header)
-            fitting = (name for name, parts in zip(made, PRECOMPILED) if name and held.issuperset(map(Path, parts)))
-            name = next(fitting, None)
-            before = ["-include", name] if name else []
-            done = run("-fsyntax-only", "-x", "c++", *before, "-include", f"pfaff/{header}", "/dev/null")
-            errors = [line for line in done.stderr.splitlines() if "error:" in line]
-            return None if done.returncode == 0 else f"{header} does not compile by itself: {(errors or ['?'])[0]}"
+        def compiled(name, chain):
+            files = [*([name] if name else []), *(f"pfaff/{header}" for header in chain)]
+            return run("-fsyntax-only", "-x", "c++", *(option for file in files for option in ("-include", file)), "/dev/null")
+
+        def faults_of(task):
+            name, chain = task
+            if compiled(name, chain).returncode == 0:
+                return []
+            faults = []
+            for header in chain:
+                done = compiled(name, [header])
+                errors = [line for line in done.stderr.splitlines() if "error:" in line]
+                if done.returncode != 0:
+                    faults.append(f"{header} does not compile by itself: {(errors or ['?'])[0]}")
+            return faults or [f"{', '.join(map(str, chain))} do not compile one after the other"]
 
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             made = list(pool.map(precompile, range(len(PRECOMPILED))))
-            yield from filter(None, pool.map(compile_one, headers))
+            held, groups = {header: closure(graph, header) for header in headers}, defaultdict(list)
+            for header in headers:
+                fitting = (name for name, parts in zip(made, PRECOMPILED) if name and held[header].issuperset(map(Path, parts)))
+                groups[next(fitting, None)].append(header)
+            tasks = [(name, chain) for name, group in groups.items() for chain in chains(group, held)]
+            for faults in pool.map(faults_of, tasks):
+                yield from faults
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent)
     parser.add_argument("--no-compile", action="store_true", help="look at arrows and cycles only")
+    parser.add_argument("--chains", type=Path, metavar="FILE", help="print headers as they are compiled, and check nothing")
     arguments = parser.parse_args()
     root = arguments.root.resolve()
     files = list(sources(root))
     arrows = [(source, number, target) for source in files for number, target in includes(root, source)]
+    if arguments.chains:
+        listed, graph = [Path(line) for line in arguments.chains.read_text().splitlines()], graph_of(arrows)
+        for chain in chains(listed, {header: closure(graph, header) for header in listed}):
+            print(*chain)
+        return 0
     problems = [*broken_arrows(arrows), *broken_libraries(arrows), *cycles(arrows)]
     listed = root / "cmake" / "public_headers.txt"
     public = set(map(Path, listed.read_text().split("\n"))) if listed.exists() else set()

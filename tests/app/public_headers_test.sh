@@ -41,17 +41,20 @@ grep -hoE '<pfaff/[a-z0-9_/]+\.hpp>' "${shown[@]}" "$source/CONTRIBUTING.md" "$s
 private=$(comm -23 "$scratch/shown" "$scratch/listed")
 [[ -z $private ]] || fail "examples and pages name what is not in cmake/public_headers.txt: $private"
 
-# Each is compiled alone, with what the package asks for and nothing else.
+# Each is compiled alone, with what the package asks for and nothing else. Of those that one another include, each after
+# what it includes.
 mkdir "$scratch/alone"
+"$source/.ci/includes.py" --chains "$scratch/listed" >"$scratch/chains"
+different=$(diff "$scratch/listed" <(tr ' ' '\n' <"$scratch/chains" | sort)) || fail "compiled are (>) instead of (<): $different"
 {
   printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(Alone LANGUAGES CXX)' 'find_package(Pfaff REQUIRED)'
   printf '%s\n' 'add_library(alone OBJECT'
   number=0
-  while read -r header; do
+  while read -r -a chain; do
     number=$((number + 1))
-    printf '#include <pfaff/%s>\n' "$header" >"$scratch/alone/$number.cpp"
+    printf '#include <pfaff/%s>\n' "${chain[@]}" >"$scratch/alone/$number.cpp"
     printf '%s\n' "$number.cpp"
-  done <"$scratch/listed"
+  done <"$scratch/chains"
   printf '%s\n' ')' 'target_link_libraries(alone PRIVATE Pfaff::studies)' \
     'target_compile_options(alone PRIVATE -fsyntax-only)'
 } >"$scratch/alone/CMakeLists.txt"
