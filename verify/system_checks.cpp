@@ -112,7 +112,8 @@ void friction(std::vector<Check>& checks, const std::string& name, const Model& 
 // the closed form between two times shows in none of its derivatives.
 double apart_along_motion(const Model& model, const Region& region) {
   const std::vector<Real>& centre = region.centres.front();
-  const Real begin = generic_time_of(model);
+  // A surface may move, and at time 0 the initial state is on it.
+  const Real begin = region.surface == nullptr ? generic_time_of(model) : Real(0);
   std::vector<Quad> start;
   for (const Real& x : centre) start.push_back(x.quad());
   std::vector<Quad> inputs = start;

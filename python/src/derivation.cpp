@@ -49,8 +49,9 @@ Equations derive_named(const std::string& name, const Assignments& parameters, c
   const DerivationOptions options = options_of(friction, degree, std::move(elimination));
   const SystemPlugin& system = system_asked_for(name);
   return without_lock([&] {
-    return with_named_parameters(system, parameters,
-                                 [&](const Model& model) { return derive(model, method_for(model, method), options); });
+    return with_named_parameters(system, parameters, [&](const Model& model) {
+      return derive(model, method_for(model, method), options);
+    });
   });
 }
 
