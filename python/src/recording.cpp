@@ -157,8 +157,7 @@ void bind_values(py::class_<Number>& c) {
   for (const char* name : {"__int__", "__index__", "__complex__"}) c.def(name, refused<>(no_float));
   for (const char* name : {"__mod__", "__rmod__", "__floordiv__", "__rfloordiv__", "__divmod__"})
     c.def(name, refused<py::object>(no_remainder));
-  for (const char* name :
-       {"__floor__", "__ceil__", "__trunc__", "rint", "floor", "ceil", "trunc"})
+  for (const char* name : {"__floor__", "__ceil__", "__trunc__", "rint", "floor", "ceil", "trunc"})
     c.def(name, refused<>(no_remainder));
   c.def("__round__", refused<py::args>(no_remainder));
   c.attr("__hash__") = py::none();
