@@ -225,7 +225,7 @@ def compare(
 
     Raises:
         InputError: what does not fit, before any run; a directory that holds another experiment.
-        Interrupted: Ctrl-C. With `out`, the same call resumes.
+        Interrupted: Ctrl-C. With `out`, the same call resumes; without it the message says where the runs are that were made.
 
     >>> import pfaff
     >>> result = pfaff.compare({
@@ -254,10 +254,11 @@ def compare(
         )
     try:
         found = _pfaff.compare(path, written, objects, str(directory), quick, force, compile, report, seconds)
-    except Interrupted:
-        if out is not None:
+    except Interrupted as error:
+        if out is not None or not any(directory.glob("runs/*/summary.json")):
             raise
-        raise Interrupted("interrupted; its runs are gone, and with out= they would be there to be resumed") from None
+        kept = shutil.move(directory, tempfile.mkdtemp(prefix="pfaff-"))
+        raise Interrupted(str(error).replace(str(directory), kept).replace("the same call resumes", "with out= of it the same call resumes")) from None
     if written:
         shutil.copy(path, directory)
     report_path = found["report"] and pathlib.Path(found["report"])

@@ -2,6 +2,7 @@
 import json
 import pathlib
 import re
+import shutil
 
 import numpy as np
 import pytest
@@ -132,13 +133,16 @@ def test_an_interrupted_experiment_is_resumed(tmp_path):
 
     main = threading.main_thread().ident
     long = {**SWING, "case": [{"name": "swing", "system": "pendulum", "time": 1000, "steps": [0.1, 0.01, 0.001, 0.0001]}]}
-    for out, words in ((None, "with out="), (tmp_path, "the same call resumes")):
+    for out, words in ((None, r"runs are in (\S+); with out= of it the same call resumes"), (tmp_path, "the same call resumes")):
         timer = threading.Timer(0.4, lambda: signal.pthread_kill(main, signal.SIGINT))
         timer.start()
-        with pytest.raises(pfaff.Interrupted, match=words):
+        with pytest.raises(pfaff.Interrupted, match=words) as interrupted:
             pfaff.compare(long, out=out, timing=0.3)
-    short = pfaff.compare(long, out=tmp_path, timing=0.005)
-    assert short.ok and short.runs == 8
+        directory = out or pathlib.Path(re.search(words, str(interrupted.value))[1])
+        made = len(list(directory.glob("runs/*/summary.json")))
+        short = pfaff.compare(long, out=directory, timing=0.005)
+        assert short.ok and short.runs == 8 and short.resumed == made > 0
+        shutil.rmtree(directory)
 
 
 def test_a_system_of_python_is_shown_by_its_name(tmp_path):
