@@ -260,7 +260,7 @@ class RunInProgress {
       const auto* text = std::get_if<std::string>(&line.cells[column]);
       texts.append(text != nullptr ? py::object(py::str(*text)) : py::none());
     }
-    return std::move(texts);
+    return texts;
   }
   static py::object numbers_of(const MeasuredTable& table, std::size_t column) {
     py::array_t<double> numbers(static_cast<py::ssize_t>(table.lines.size()));
@@ -269,7 +269,7 @@ class RunInProgress {
       const auto* quad = std::get_if<Quad>(&cell);
       numbers.mutable_data()[row] = quad != nullptr ? static_cast<double>(*quad) : std::get<double>(cell);
     }
-    return std::move(numbers);
+    return numbers;
   }
   [[nodiscard]] std::map<std::string, std::string> units() const {
     std::map<std::string, std::string> result{{"t", run_.model->time_unit()}};
