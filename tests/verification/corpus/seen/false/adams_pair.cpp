@@ -3,7 +3,7 @@
 // Source: Bashforth, Adams (1883); Hairer, Norsett, Wanner, Solving Ordinary Differential Equations I,
 // III.1.
 //
-// False: `order` is 2 for the first run of a process only; its last slope, which is static, begins the next.
+// False: `order` is 2 for the first run of a thread only; its last slope, which is static, begins the next.
 #include <vector>
 
 #include <pfaff/core/integrator.hpp>
@@ -13,7 +13,7 @@ using namespace pfaff;
 
 template <class T>
 struct Past {
-  static inline std::vector<T> slope;
+  static inline thread_local std::vector<T> slope;  // a race of threads would be another fault
 };
 
 struct AdamsPair {
