@@ -220,7 +220,7 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
       return errors.across_kinks() ? Quad(-1) : error;
     };
     MeasuredOrder order = settle(error_of_step, 40, [&](int k) { return floor_after(abs(step(k))); });
-    if (!order.settled && kinks) return MeasuredOrder{.reason = across_a_kink};
+    if (!order.settled && kinks) return direction > 0 ? MeasuredOrder{.reason = across_a_kink} : slower;
     order.slope -= 1;
     order.backwards = direction < 0;
     if (direction > 0 || (order.settled && slower.settled && order.slope < slower.slope - 0.5))

@@ -51,6 +51,16 @@ TEST(Kinks, SoundMethodsAreNotBlamedForThem) {
   EXPECT_EQ(blamed("extrapolation", from<Valley>(0.001_r, -0.7_r)), Names());
 }
 
+// From here the motion meets a jump after -.003, and none forwards.
+TEST(Kinks, AnOrderIsJudgedForwardsWhereTheyLieBehind) {
+  const auto method = integrators().get("extrapolation", "integrator").make({});
+  const auto checks = check_method(*method, {}, "kinked", from<DryFriction>(-0.5_r, 0.001_r));
+  const auto order =
+      std::find_if(checks.begin(), checks.end(), [](const Check& c) { return c.claim == "order"; });
+  ASSERT_NE(order, checks.end());
+  EXPECT_EQ(order->result, CheckResult::pass) << order->reason;
+}
+
 // The classical method, which says that it is symmetric, and that it is of order 5.
 struct Boasting : pfaff::testing::Classical<false> {};
 
