@@ -4,20 +4,9 @@ import pytest
 
 import pfaff
 from pfaff import plots
-
-matplotlib = pytest.importorskip("matplotlib")
-matplotlib.use("agg")
+from drawing import T, no_figure_is_left  # the fixture is in use once it is here
 
 pytestmark = pytest.mark.filterwarnings("ignore:Animation was deleted")
-T = np.linspace(0, 6, 61)
-
-
-@pytest.fixture(autouse=True)
-def no_figure_is_left():
-    yield
-    from matplotlib import pyplot
-
-    pyplot.close("all")
 
 
 def picture(animation, frame):

@@ -5,20 +5,7 @@ import pytest
 import pfaff
 from pfaff import plots
 from pfaff._style import families as report_families
-
-matplotlib = pytest.importorskip("matplotlib")
-matplotlib.use("agg")
-
-T = np.linspace(0, 6, 61)
-Z = np.column_stack([np.cos(T), -np.sin(T)])
-
-
-@pytest.fixture(autouse=True)
-def no_figure_is_left():
-    yield
-    from matplotlib import pyplot
-
-    pyplot.close("all")
+from drawing import T, Z, matplotlib, no_figure_is_left  # the fixture is in use once it is here
 
 
 @pytest.fixture(scope="module")
