@@ -120,24 +120,26 @@ double apart_along_motion(const Model& model, const Region& region) {
   inputs.push_back(begin.quad());
   Replay<Quad> solution(model.tape(Formula::exact_solution));
   std::vector<Quad> closed(start.size());
+  const Quad quarter = own_time(model, begin, centre) / Quad(4);
   Quad largest(0);
-  for (const int direction : {1, -1}) try {
-      const Quad stretch = own_time(model, begin, centre) * Quad(direction) / Quad(4);
-      std::vector<Quad> z = start;
+  for (const Quad& stretch : {quarter, Quad(-quarter)}) {
+    std::vector<Quad> z = start;
+    try {
       for (int k = 1; k <= 64; ++k) {
-        const Quad elapsed = Quad(k) * stretch;
         short_flow(model, begin.quad() + Quad(k - 1) * stretch, stretch, z);
-        solution(elapsed, inputs.data(), closed.data());
+        solution(Quad(k) * stretch, inputs.data(), closed.data());
         Quad apart(0), size(0);
         for (std::size_t i = 0; i < z.size(); ++i) {
+          if (!isfinite(closed[i])) return NAN;
           apart = std::max(apart, Quad(abs(z[i] - closed[i])));
           size = std::max(size, Quad(abs(z[i])));
-          if (!isfinite(closed[i])) return NAN;
         }
         if (apart > Quad(0)) largest = std::max(largest, Quad(apart / size));
       }
     } catch (const SolutionEnds&) {
+      continue;
     }
+  }
   return static_cast<double>(largest);
 }
 

@@ -179,11 +179,14 @@ bool made(const ExperimentRun& run, References& references, const fs::path& dire
   return false;
 }
 
-// The first quantity that is conserved in all of the runs, which have one case; empty where there is none.
-std::string conserved_in(const std::vector<const ExperimentRun*>& runs) {
+// The first quantity that is conserved in all runs of a case; empty where there is none.
+std::string conserved_in(const ExperimentCase& one, const std::vector<ExperimentRun>& all) {
+  std::vector<const ExperimentRun*> runs;
+  for (const ExperimentRun& run : all)
+    if (run.which == &one) runs.push_back(&run);
   const auto conserves = [](const ExperimentRun* run, const std::string& name) {
-    const std::vector<Invariant>& all = run->resolved.model->invariants();
-    return std::any_of(all.begin(), all.end(), [&](const Invariant& i) {
+    const std::vector<Invariant>& of_run = run->resolved.model->invariants();
+    return std::any_of(of_run.begin(), of_run.end(), [&](const Invariant& i) {
       return i.name == name && i.behaviour == Behaviour::conserved;
     });
   };
@@ -200,13 +203,8 @@ std::string conserved_in(const std::vector<const ExperimentRun*>& runs) {
 void make_all(Experiment experiment, const fs::path& directory, const ExperimentProgress& progress,
               const ExperimentOptions& options, ExperimentOutcome& outcome, std::size_t& done) {
   std::vector<ExperimentRun> runs = expand(experiment, &outcome.left_out);
-  for (ExperimentCase& one : experiment.cases) {
-    if (!one.conserved.empty()) continue;
-    std::vector<const ExperimentRun*> of_case;
-    for (const ExperimentRun& run : runs)
-      if (run.which == &one) of_case.push_back(&run);
-    one.conserved = conserved_in(of_case);
-  }
+  for (ExperimentCase& one : experiment.cases)
+    if (one.conserved.empty()) one.conserved = conserved_in(one, runs);
   ThisProcess alone;
   Team& team = options.team == nullptr ? alone : *options.team;
   Preparation ready;

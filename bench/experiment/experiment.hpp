@@ -124,7 +124,7 @@ struct ExperimentRun {
 /// The run as progress and messages call it: "case weak-damping, method RK4, step 0.1".
 std::string in_words(const ExperimentRun& run);
 /// The name of its system as readers know it: of a text model its own, not the path of its file.
-std::string system_of(const ExperimentRun& run);
+std::string system_name(const ExperimentRun& run);
 
 /// All runs of an experiment. Every one is resolved and checked here, so that mistakes are found before any
 /// work starts. Where steps are still to be chosen, one run of a single step stands for them. `left_out`,

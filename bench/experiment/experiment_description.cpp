@@ -49,7 +49,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                           {"reference_solution", !c.reference ? "none"
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
-    if (const std::string name = system_of(*run); name != c.system) j["cases"].back()["model"] = name;
+    if (const std::string name = system_name(*run); name != c.system) j["cases"].back()["model"] = name;
     if (!c.error.empty()) j["cases"].back()["error"] = c.error;
     // Steps that are still to be chosen may make more rows than these.
     const bool many = c.automatic || std::any_of(runs.begin(), runs.end(), [&](const ExperimentRun& r) {

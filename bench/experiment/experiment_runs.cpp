@@ -150,7 +150,7 @@ std::string in_words(const ExperimentRun& run) {
          (run.tolerance.empty() ? ", step " + run.step : ", tolerance " + run.tolerance);
 }
 
-std::string system_of(const ExperimentRun& run) {
+std::string system_name(const ExperimentRun& run) {
   return text::is_text_file(run.which->system) ? run.resolved.model->name() : run.which->system;
 }
 

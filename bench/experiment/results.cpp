@@ -59,7 +59,7 @@ std::vector<ResultColumn> columns_of(const std::vector<ExperimentRun>& runs) {
   const auto any = [&](const auto& holds) { return std::any_of(runs.begin(), runs.end(), holds); };
   const std::string time = runs.empty() ? "" : runs.front().resolved.model->time_unit();
   text("case", [](const Run& r, const Json&) { return csv_quoted(r.which->name); });
-  text("system", [](const Run& r, const Json&) { return csv_quoted(system_of(r)); });
+  text("system", [](const Run& r, const Json&) { return csv_quoted(system_name(r)); });
   text("method", [](const Run& r, const Json&) { return csv_quoted(r.method->label); });
   text("integrator", [](const Run& r, const Json&) { return csv_quoted(r.method->integrator); });
   text("parameters", [](const Run& r, const Json&) { return csv_quoted(parameters_of(r)); });

@@ -182,7 +182,7 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
     const bool restricted = std::any_of(runs.begin(), runs.end(), [&](const ExperimentRun& r) {
       return r.which == &c && r.resolved.model->restricted();
     });
-    text += '\n' + paragraph(c.title + " (" + system_of(*run) + ", T = " + to_string(run->resolved.time) +
+    text += '\n' + paragraph(c.title + " (" + system_name(*run) + ", T = " + to_string(run->resolved.time) +
                              (c.seeds > 0 ? ", " + std::to_string(c.seeds) + " seeds" : "") + ")" +
                              (c.seeds > 0 || c.conserved.empty() ? "" : ", drift of " + c.conserved) +
                              (c.error.empty() ? "" : ", error: largest relative drift of " + c.error));

@@ -210,7 +210,8 @@ struct SymmetricallyProjected : Base {
       status = c.linearise(t + h, q, momentum);
       if (status != Status::converged) break;
       if constexpr (!moves_positions) w.shift.apply(c, w.end);
-      // At rest the shift holds what the base method adds, and both together round as they do.
+      // Corrections are judged against the shift, too: at rest it holds what the base method adds, so that
+      // the state is far smaller than what was rounded on the way to it.
       VectorCorrections<T> moved(convergence.each()), kicked(convergence.each());
       for (std::size_t k = 0; k < n; ++k) {
         if constexpr (moves_positions) moved.against(w.shift.move(k));
