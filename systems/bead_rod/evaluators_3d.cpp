@@ -1,7 +1,7 @@
-// Bead-rod formulas in 3 dimensions. All scalars are compiled together: for code in doubles alone GCC chooses
-// to inline less, and right-hand sides of rings take 5 to 18 % longer.
+// Bead-rod formulas in 3 dimensions.
+#include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/systems/bead_rod/evaluators_of_dimension.hpp>
 
 namespace pfaff::detail {
-template struct EvaluatorInstances<3, FormulaScalars>;
+template struct EvaluatorInstances<3, ScalarsHere<FormulaScalars>>;
 }  // namespace pfaff::detail
