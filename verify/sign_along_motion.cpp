@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <pfaff/core/tape/replay.hpp>
-#include <pfaff/runs/support/reference.hpp>
 #include <pfaff/verify/step_scale.hpp>
 
 namespace pfaff {
@@ -13,30 +13,28 @@ namespace {
 // The rate at times of the motion.
 class RateOfMotion {
  public:
-  RateOfMotion(const std::shared_ptr<const Model>& motion, const std::shared_ptr<const Tape>& rate,
-               const Region& region, const Quad& duration)
-      : begin_(generic_time_of(*motion).quad()),
-        duration_(duration),
-        solution_(motion, begin_, {region.centres.front().begin(), region.centres.front().end()}, duration),
-        region_(region),
+  RateOfMotion(FollowedMotion& motion, const std::shared_ptr<const Tape>& rate,
+               const std::shared_ptr<const Tape>& domain)
+      : motion_(motion),
+        solution_(motion.solution()),
         rate_(rate),
-        domain_(region.domain != nullptr ? region.domain : rate),
+        domain_(domain),
         needed_(domain_.tape().outputs.size()) {}
 
   // How far it is found, in parts of the duration.
   [[nodiscard]] double reach(int parts) const {
     int k = parts;
-    while (k > 0 && !solution_.covers(begin_ + duration_ * Quad(k) / Quad(parts))) --k;
+    while (k > 0 && !solution_.covers(motion_.time(Quad(k) / Quad(parts)))) --k;
     return static_cast<double>(k) / parts;
   }
   // At a part of the duration; negative where the state does not count.
   WithRounding<Quad> operator()(double part) {
-    const Quad t = begin_ + duration_ * Quad(part);
-    const std::vector<Quad> at = solution_.at(t);
-    const std::vector<WithRounding<Quad>> z(at.begin(), at.end());
+    const Quad t = motion_.time(Quad(part));
+    const std::vector<Quad> state = solution_.at(t);
+    const std::vector<WithRounding<Quad>> z(state.begin(), state.end());
     WithRounding<Quad> rate(-1);
     domain_(WithRounding<Quad>(t), z.data(), needed_.data());
-    if (!region_.contains(at) ||
+    if (!motion_.region().contains(state) ||
         !std::all_of(needed_.begin(), needed_.end(), [](const auto& x) { return isfinite(x.value); }))
       return rate;
     rate_(WithRounding<Quad>(t), z.data(), &rate);
@@ -44,9 +42,8 @@ class RateOfMotion {
   }
 
  private:
-  Quad begin_, duration_;
-  ReferenceSolution solution_;
-  const Region& region_;
+  const FollowedMotion& motion_;
+  const ReferenceSolution& solution_;
   Replay<WithRounding<Quad>> rate_, domain_;
   std::vector<WithRounding<Quad>> needed_;
 };
@@ -72,15 +69,25 @@ WithRounding<Quad> highest_between(RateOfMotion& rate, double low, double high) 
 }
 }  // namespace
 
-double largest_along(const std::shared_ptr<const Model>& motion, const std::shared_ptr<const Tape>& rate,
-                     const Region& region) {
+FollowedMotion::FollowedMotion(std::shared_ptr<const Model> model, Region region)
+    : model_(std::move(model)), region_(std::move(region)), begin_(generic_time_of(*model_).quad()) {}
+
+const ReferenceSolution& FollowedMotion::solution() {
+  if (!solution_) {
+    const std::vector<Real>& start = region_.centres.front();
+    duration_ = Quad(own_times_followed(*model_)) * own_time(*model_, generic_time_of(*model_), start);
+    solution_.emplace(model_, begin_, std::vector<Quad>(start.begin(), start.end()), duration_);
+  }
+  return *solution_;
+}
+
+double largest_along(FollowedMotion& motion, const std::shared_ptr<const Tape>& rate,
+                     const std::shared_ptr<const Tape>& domain) {
   constexpr std::size_t most_operations = std::size_t{1} << 18;  // at all times together
   constexpr std::size_t most_maxima = 32;
-  const Quad duration =
-      Quad(own_times_followed(*motion)) * own_time(*motion, generic_time_of(*motion), region.centres.front());
   const auto looks = static_cast<int>(
       std::clamp<std::size_t>(most_operations / std::max<std::size_t>(1, rate->code.size()), 64, 512));
-  RateOfMotion along(motion, rate, region, duration);
+  RateOfMotion along(motion, rate, domain);
   const double reach = along.reach(looks);
   std::vector<WithRounding<Quad>> seen;
   for (int k = 0; k <= looks; ++k) seen.push_back(along(reach * k / looks));

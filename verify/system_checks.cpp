@@ -46,24 +46,26 @@ Check varies(const std::string& system, const std::string& invariant,
 
 // The one output of a tape is positive at no random state, and along no short motion.
 void never_positive(std::vector<Check>& checks, const std::string& name, const std::string& claim,
-                    const std::shared_ptr<const Model>& motion, const std::shared_ptr<const Tape>& forbidden,
+                    FollowedMotion& motion, const std::shared_ptr<const Tape>& forbidden,
                     const Region& region) {
-  const auto positive = expression(motion->dimension(), 1, [&](const Recorded& t, Arguments z, Results out) {
-    const Recorded r = evaluate(*forbidden, t, z)[0];
-    out[0] = select(r, r, Recorded(0));
-  });
+  const auto positive =
+      expression(motion.model()->dimension(), 1, [&](const Recorded& t, Arguments z, Results out) {
+        const Recorded r = evaluate(*forbidden, t, z)[0];
+        out[0] = select(r, r, Recorded(0));
+      });
   both(checks, name, claim, name, positive, region);
-  if (!is_short(*motion)) return;
+  if (!is_short(*motion.model())) return;
+  const auto& domain = region.domain != nullptr ? region.domain : forbidden;
   const Check along = named(name, claim + " along the motion", name, "quad", 0, residual_tolerance<Quad>());
   checks.push_back(within_budget(along, [&] {
-    return named(name, along.claim, name, "quad", largest_along(motion, forbidden, region),
+    return named(name, along.claim, name, "quad", largest_along(motion, forbidden, domain),
                  residual_tolerance<Quad>());
   }));
 }
 
-void invariants(std::vector<Check>& checks, const std::string& name,
-                const std::shared_ptr<const Model>& motion, Region region) {
-  const Model& model = *motion;
+void invariants(std::vector<Check>& checks, const std::string& name, FollowedMotion& motion) {
+  const Model& model = *motion.model();
+  Region region = motion.region();
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
@@ -97,14 +99,14 @@ void invariants(std::vector<Check>& checks, const std::string& name,
 
 // Coefficients of friction are none of driving.
 void friction(std::vector<Check>& checks, const std::string& name, const Model& model,
-              const std::shared_ptr<const Model>& motion, const Region& region) {
+              FollowedMotion& motion) {
   const auto coefficients = model.tape(Formula::friction);
   const auto driving = expression(model.dimension(), 1, [&](const Recorded& t, Arguments z, Results out) {
     const auto lambda = evaluate(*coefficients, t, z);
     out[0] = -lambda[0];
     for (std::size_t k = 1; k < lambda.size(); ++k) out[0] = max(out[0], -lambda[k]);
   });
-  never_positive(checks, name, "coefficients of friction are not negative", motion, driving, region);
+  never_positive(checks, name, "coefficients of friction are not negative", motion, driving, motion.region());
 }
 
 // The largest distance of the exact solution from Taylor steps over the size of the state, up to sixteen of
@@ -245,8 +247,9 @@ std::vector<Check> check_system(const std::string& name, const std::shared_ptr<c
     for (Check& check : check_metriplectic(name, *model)) checks.push_back(std::move(check));
   Region on_surface = region;
   if (model->restricted()) on_surface.surface = model;
-  if (model->given(Formula::friction)) friction(checks, name, *model, motion, on_surface);
-  invariants(checks, name, motion, on_surface);
+  FollowedMotion followed(motion, on_surface);
+  if (model->given(Formula::friction)) friction(checks, name, *model, followed);
+  invariants(checks, name, followed);
   if (model->facets().has(Facet::exact_solution)) exact_solution(checks, name, *motion, on_surface);
   if (model->given(Formula::reversal))
     for (Check& check : check_reversal(name, *motion, region)) checks.push_back(std::move(check));

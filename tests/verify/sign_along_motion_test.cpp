@@ -26,7 +26,8 @@ double largest_of_sine_less(Real less) {
   const std::shared_ptr<const Model> model = clock.make({});
   const auto rate = expression(
       1, 1, [&](const Recorded& /*t*/, Arguments z, Results out) { out[0] = sin(z[0]) - Recorded(less); });
-  return largest_along(model, rate, region_of(*model, generic_state(*model)));
+  FollowedMotion motion(model, region_of(*model, generic_state(*model)));
+  return largest_along(motion, rate, rate);
 }
 
 // The sine comes to one five times within 32 units of time, between two of 512 looks, at none of which it is
