@@ -54,7 +54,8 @@ void never_positive(std::vector<Check>& checks, const std::string& name, const s
         out[0] = select(r, r, Recorded(0));
       });
   both(checks, name, claim, name, positive, region);
-  if (!is_short(*motion.model())) return;
+  // Along a motion a constant has no other sign.
+  if (!is_short(*motion.model()) || (forbidden->state_independent() && forbidden->autonomous())) return;
   const auto& domain = region.domain != nullptr ? region.domain : forbidden;
   const Check along = named(name, claim + " along the motion", name, "quad", 0, residual_tolerance<Quad>());
   checks.push_back(within_budget(along, [&] {
