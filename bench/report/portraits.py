@@ -29,13 +29,18 @@ class Frame:
         self.span = [high - low + 2 * pad for (low, high), pad in zip(frame, pads)]
 
     def height(self, width):
-        """Of a panel of that width. Where both axes have one unit, a circle is a circle in it: the frame is widened to fill the panel."""
+        """Of a panel of that width, which the frame then fills."""
         if not self.equal:
             return 0.8 * width
         tall = min(1.25 * width, max(0.45 * width, width * self.span[1] / self.span[0]))
-        for k, least in ((0, self.span[1] * width / tall), (1, self.span[0] * tall / width)):
-            self.begin[k], self.span[k] = widened(self.begin[k], self.span[k], least)
+        self.fill(width, tall)
         return tall
+
+    def fill(self, width, tall):
+        """Where both axes have one unit, a circle is a circle in a panel of this size: the frame is widened to fill it."""
+        if self.equal:
+            for k, least in ((0, self.span[1] * width / tall), (1, self.span[0] * tall / width)):
+                self.begin[k], self.span[k] = widened(self.begin[k], self.span[k], least)
 
     def apply(self, axes, ticks=4):
         axes.set_xlim(self.begin[0], self.begin[0] + self.span[0])
@@ -83,12 +88,16 @@ def outer(canvas, axes, names, units, last, first):
     axes.tick_params(labelbottom=last, labelleft=first)
 
 
-def leaving(tracks):
-    """A sentence on the tracks [(label, xs, ys)] that leave the frame of all; empty where none does."""
-    frame = limits([t[1:] for t in tracks], FRAME)
-    outside = [label for label, *track in tracks
-               if any(min(v) < low or max(v) > high for v, (low, high) in zip(track, frame))]
-    return f"The track of {', '.join(outside)} leaves the frame." if outside else ""
+def outside(tracks, others=()):
+    """The labels of the tracks [(label, xs, ys)] that leave the frame of all, and of others [(xs, ys)]."""
+    frame = limits([*(t[1:] for t in tracks), *others], FRAME)
+    return [label for label, *track in tracks
+            if any(min(v) < low or max(v) > high for v, (low, high) in zip(track, frame))]
+
+
+def leaving(labels, which=""):
+    """A sentence on the tracks that leave a frame; empty where none does."""
+    return f"The track of {', '.join(labels)} leaves the frame{which}." if labels else ""
 
 
 def remarks(tracks, units):
@@ -96,4 +105,4 @@ def remarks(tracks, units):
     return sentences("Axes are the same in all panels." if len(tracks) > 1 else "",
                      "Both axes have the same scale." if units[0] == units[1] else "", "A cross marks the start.",
                      "Points are samples that lie too far apart to be joined." if any(coarse(x, y) for *_, x, y in tracks)
-                     else "", leaving([(label, x, y) for label, _, x, y in tracks]))
+                     else "", leaving(outside([(label, x, y) for label, _, x, y in tracks])))

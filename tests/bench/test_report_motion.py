@@ -126,16 +126,18 @@ class Tracks(Fresh):
                 self.assertIn(told, said)
 
 
-def turning(folder, stretches=5, lost=1e3, more=0, late=None):
+def turning(folder, stretches=5, lost=1e3, more=0, late=None, shrinks=1.0):
     """`circles` with stretches of twelve steps: `round` on the exact unit circle, `small` on one of half its size, `lost` far away. `late`
-    has by how much later the stretches of a method begin."""
+    has by how much later the stretches of a method begin. From one stretch to the next the motion `shrinks`, but not that of `lost`."""
     circles(folder, more=more)
     rows = [["case", "method", "step", "t", "x axis", "y axis", "stretch", "x", "y", "exact_x", "exact_y"]]
     for label, size in (("round", 1.0), ("small", 0.5), ("lost", lost), *((f"more {k}", 1.0) for k in range(more))):
         for stretch in range(1, (stretches[label] if isinstance(stretches, dict) else stretches) + 1):
             for k in range(13):
                 t = 20 * (stretch - 1) + k / 2 + (late or {}).get(label, 0)
-                cells = [size * math.cos(t), size * math.sin(t), math.cos(t), math.sin(t)]
+                exact = shrinks ** (stretch - 1)
+                own = size * (1 if label == "lost" else exact)
+                cells = [own * math.cos(t), own * math.sin(t), exact * math.cos(t), exact * math.sin(t)]
                 rows.append(["ball", label, "0.5", repr(t), "x [m]", "y [m]", str(stretch), *map(repr, cells)])
     measured(folder, "motion", rows, texts=("x axis", "y axis"))
     return folder
@@ -191,6 +193,25 @@ class Stretches(Fresh):
         drawing = self.drawing()
         self.assertIn("The track of lost leaves the frame.", drawing.caption)
         self.assertLess(drawing.draw(True).axes[0].get_xlim()[1], 10)
+
+    def test_where_the_motion_dies_away_each_column_has_its_axes(self):
+        drawing = self.drawing(lost=1.1, shrinks=1e-3)
+        axes = drawing.draw(True).axes
+        for column in range(5):
+            limits = {(one.get_xlim(), one.get_ylim()) for one in axes[column::5]}
+            self.assertEqual(len(limits), 1)
+            (low, high), _ = limits.pop()
+            self.assertTrue(1 <= high / 1e-3 ** column < 3 and 1 <= -low / 1e-3 ** column < 3)
+            self.assertTrue(axes[column].yaxis.majorTicks[0].label1.get_visible())
+        self.assertIn("t = 80 to 86 s\naxes in 10⁻¹²", [text.get_text() for text in axes[4].texts])
+        self.assertEqual([text.get_text() for text in axes[14].get_xticklabels()], ["\N{MINUS SIGN}2", "\N{MINUS SIGN}1", "0", "1", "2"])
+        self.assertIn("Axes are the same in the panels of a column, in multiples of the power of ten above it.", drawing.caption)
+        self.assertIn("The track of lost leaves the frame of some columns.", drawing.caption)
+
+    def test_axes_are_the_same_where_the_motion_changes_little(self):
+        drawing = self.drawing(lost=1.1, shrinks=0.9)
+        self.assertEqual(len({(axes.get_xlim(), axes.get_ylim()) for axes in drawing.draw(True).axes}), 1)
+        self.assertIn("Axes are the same in all panels.", drawing.caption)
 
     def test_nothing_leaves_the_frame_of_motions_alike(self):
         self.assertNotIn("leaves the frame", self.drawing(lost=1.1).caption)
