@@ -16,6 +16,7 @@ from ._arguments import real_array, unknown
 from ._asked_run import asked_run, listed_measures
 from ._errors import InputError, NotConverged, RunFailed
 from ._integration import Integration, attach, with_parameters
+from ._measure_table import MeasureTable
 from ._naming import kebab
 from ._objects import as_system
 from ._sensitivity import sensitivity_of, warn_of_jumps
@@ -48,8 +49,8 @@ class Run:
         """The relative error against the reference, shape (rows,), NaN where it was not measured; None without one."""
         self.structure: np.ndarray | None = of["structure"]
         """The residual of the structure of one step, shape (rows,), NaN where it was not measured; or None."""
-        self.measures: dict[str, dict[str, Any]] = {name: columns for name, (columns, _) in of["tables"].items()}
-        """The tables of the measures that were asked for, each a dictionary of columns."""
+        self.measures: dict[str, MeasureTable] = {name: MeasureTable(name, *table) for name, table in of["tables"].items()}
+        """The tables of the measures that were asked for, by their names."""
         self.status: str = of["status"]
         """'converged', or how the last step failed."""
         self.message: str = of["message"]
@@ -159,7 +160,7 @@ class Run:
         columns = {"t": self.t, **dict(zip(self.coordinates, self.y.T)), **self.invariants, **self.constraints}
         if self.error is not None:
             columns["error"] = self.error
-        return data_frame(list(columns), list(zip(*columns.values())))
+        return data_frame(list(columns), list(zip(*columns.values())), {**self.units, **dict.fromkeys(self.constraints, "1")})
 
     def plot(self, kind: str = "trajectory", **keywords: Any) -> Any:
         """Draws the run in the style of the report, and returns matplotlib's axes, or an animation.
@@ -321,7 +322,7 @@ def _name_of(function: Callable[[Run], Any]) -> str:
     return kebab(getattr(function, "__name__", type(function).__name__))
 
 
-def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
+def _measured(function: Callable[[Run], Any], result: Run) -> MeasureTable:
     """The table of a measure that is a function of the run."""
     given, measure = function(result), _name_of(function)
     columns = dict(given) if isinstance(given, Mapping) else {measure: given}
@@ -331,4 +332,4 @@ def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
         table[name] = real_array(values, f"measure {measure}", expected)
         if table[name].shape != result.t.shape:
             raise InputError(f"measure {measure}: expected {expected}, got shape {table[name].shape}")
-    return table
+    return MeasureTable(measure, table, {"t": result.units["t"], **dict.fromkeys(columns, "")})

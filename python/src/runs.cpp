@@ -241,15 +241,21 @@ class RunInProgress {
     py::dict result;
     for (std::size_t k = 0; k < tables_.size(); ++k) {
       const MeasuredTable& table = tables_[k];
-      py::dict columns;
+      py::dict columns, units;
       py::array_t<std::int64_t> steps(static_cast<py::ssize_t>(table.lines.size()));
       for (std::size_t row = 0; row < table.lines.size(); ++row)
         steps.mutable_data()[row] = table.lines[row].step;
       columns["step"] = std::move(steps);
-      for (std::size_t i = 0; i < table.columns.size(); ++i)
-        columns[py::str(table.columns[i].name)] =
-            table.columns[i].kind == Column::Kind::text ? texts_of(table, i) : numbers_of(table, i);
-      result[py::str(measures_[k]->descriptor().name)] = py::make_tuple(columns, table.ended);
+      units["step"] = "";
+      for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const Column& column = table.columns[i];
+        const py::str name(column.name);
+        const bool numbers = column.kind == Column::Kind::number;
+        columns[name] = numbers ? numbers_of(table, i) : texts_of(table, i);
+        if (numbers) units[name] = column.unit;
+      }
+      result[py::str(measures_[k]->descriptor().name)] =
+          py::make_tuple(columns, units, in_words_of_python(table.ended));
     }
     return result;
   }
