@@ -33,7 +33,7 @@ class Run:
     `run[name]` is a coordinate, a block of coordinates (shape (rows, count)), or an invariant.
     """
 
-    def __init__(self, system: Any, method: Any, going: Any, asked: dict[str, Any]) -> None:
+    def __init__(self, system: Any, method: Any, going: Any, asked: dict[str, Any], raised: BaseException | None = None) -> None:
         of = going.samples()
         self._going = going  # for the summary
         self.system, self.method, self._asked = system, method, asked
@@ -52,9 +52,9 @@ class Run:
         self.measures: dict[str, MeasureTable] = {name: MeasureTable(name, *table) for name, table in of["tables"].items()}
         """The tables of the measures that were asked for, by their names."""
         self.status: str = of["status"]
-        """'converged', or how the last step failed."""
-        self.message: str = of["message"]
-        """Why the run ended early; empty where it did not."""
+        """'converged', how the last step failed, or 'interrupted' where the steps were ended by Ctrl-C or by something that was raised."""
+        self.message: str = of["message"] or (str(raised).partition("\n")[0] or type(raised).__name__ if raised is not None else "")
+        """Why the run ended early, or is without what was asked for; empty where all is there."""
         self.coordinates: list[str] = of["coordinates"]
         self.units: dict[str, str] = of["units"]
         self._steps, self._initial, self._step, self._t0 = of["steps"], of["initial"], of["step"], of["t0"]
@@ -194,8 +194,8 @@ class Run:
         error = f", largest error {self.error_max:.3g}" if self.error_max is not None else ""
         if "reference_ended" in self.summary:
             error += f", {'errors end early' if error else 'no errors'}: {self.summary['reference_ended']}"
-        ended = f"; {self.message}" if self.message else ""
-        return f"run of {self.system.name} by {self.method.name}: {span}{error}{ended}"
+        ended = self.message or self.summary.get("duration", "")
+        return f"run of {self.system.name} by {self.method.name}: {span}{error}{f'; {ended}' if ended else ''}"
 
     _COLUMNS = ("quantity", "class", "max", "slope", "slope_low", "slope_high")
 
@@ -256,7 +256,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         method: a name, the path of a table, a dictionary of coefficients, or a pfaff.Method.
         step: the step, > 0; or `tolerance`, for a method that chooses its steps: the error of a step in each coordinate,
             relative to the largest size that the coordinate has had so far in the motion.
-        time: the duration; a negative one goes back in time.
+        time: the duration; a negative one goes back in time. The last whole step ends within it, which the run says where
+            it is no multiple of the step.
         every: the steps between two samples; 0 chooses for about a thousand samples.
         initial: the state, shape (dimension,); without it the system's own.
         initial_velocities: beside it, with the positions alone: the velocities, from which the momenta follow.
@@ -301,7 +302,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     except InputError:
         raise
     except BaseException as error:
-        attach(error, Run(base, tool, going, asked))
+        attach(error, Run(base, tool, going, asked, error))
         raise
     result = Run(base, tool, going, asked)
     try:
