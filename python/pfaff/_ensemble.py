@@ -105,18 +105,13 @@ def ensemble(system: Any, method: Any, states: Any, *, step: Any, steps: int, ev
     workers = whole(threads, "threads", 1) if threads is not None else len(os.sched_getaffinity(0))
     if callback is not None:
         function(callback, "callback", "a function of the index of a trajectory")
-    times = np.empty(1 + count // stride)
-    times.fill(np.nan)  # what is raised before there is a motion leaves them so
-    y = np.empty((len(array), len(times), base.dimension))
-    reached, done = np.zeros(len(array), dtype=np.int64), np.zeros(len(array), dtype=bool)
-    result = Ensemble(base.name, tool.name, tuple(base.coordinates), times, y, {}, done)
+    described, made = (base.name, tool.name, base.coordinates), dict[str, Any]()
     try:
-        _pfaff.ensemble(base.model, tool.instance, asked, array, count, stride, workers, times, y, reached, done, result.failures, callback)
+        _pfaff.ensemble(base.model, tool.instance, asked, array, count, stride, workers, callback, made)
     except InputError:
         raise
     except BaseException as error:
-        begun = int(np.flatnonzero(reached)[-1]) + 1 if reached.any() else 0
-        result.y, result.done = y[:begun], done[:begun]
-        attach(error, result)
+        if made:
+            attach(error, Ensemble(*described, **made))
         raise
-    return result
+    return Ensemble(*described, **made)

@@ -61,10 +61,17 @@ struct Asked {
   std::int64_t steps, every;
   std::size_t states, dimension, rows;
   const double* from;
+  double* times;
   double* to;             // of shape (states, rows, dimension)
   std::int64_t* reached;  // by each trajectory: how many of its rows
   bool* done;             // whether it has come to its end or its failure
   SharedObject callback;  // called when a trajectory has ended, with its index
+  // As many as were begun, and others between them.
+  [[nodiscard]] std::size_t begun() const {
+    std::size_t count = states;
+    while (count > 0 && reached[count - 1] == 0) --count;
+    return count;
+  }
 };
 
 void check_finite(const Asked& asked) {
@@ -105,9 +112,7 @@ class Work {
   // What was begun and not ended is NaN from there on. Memory that no trajectory has come to stays untouched,
   // since to fill it may take longer than anybody waits who has pressed Ctrl-C.
   void fill_begun() {
-    std::size_t begun = asked_.states;
-    while (begun > 0 && asked_.reached[begun - 1] == 0) --begun;
-    for (std::size_t k = 0; k < begun; ++k) fill_behind(k);
+    for (std::size_t k = 0; k < asked_.begun(); ++k) fill_behind(k);
   }
   void rethrow() const {
     if (thrown_) std::rethrow_exception(thrown_);
@@ -160,11 +165,11 @@ class Work {
   std::exception_ptr thrown_;
 };
 
+// Fills what is asked for, and says of the trajectories that ended early why.
 template <class T>
-void take(const Asked& asked, std::size_t threads, const std::atomic<bool>& stop, double* times,
-          const py::dict& failures) {
+void take(const Asked& asked, std::size_t threads, const std::atomic<bool>& stop, py::dict& failures) {
   Work<T> work(asked, stop);
-  for (std::size_t row = 0; row < asked.rows; ++row) times[row] = work.time_of_row(row);
+  for (std::size_t row = 0; row < asked.rows; ++row) asked.times[row] = work.time_of_row(row);
   const auto note_failures = [&] {
     for (const auto& [k, message] : work.failures) failures[py::int_(k)] = message;
   };
@@ -194,26 +199,45 @@ void take(const Asked& asked, std::size_t threads, const std::atomic<bool>& stop
   note_failures();
 }
 
-// Fills `to`, of shape (states, rows, dimension), and what belongs to its rows, and to each trajectory: how
-// many rows it has, whether it has come to its end, and by its index why it ended early.
+// Puts "t", "y", "failures" and "done" of a pfaff.Ensemble into a dictionary, also where something is raised.
 void ensemble(const PySystem& system, const PyMethod& method, const py::dict& asked_for, const States& states,
-              std::int64_t steps, std::int64_t every, std::size_t threads, py::array_t<double>& times,
-              py::array_t<double>& to, py::array_t<std::int64_t>& reached, py::array_t<bool>& done,
-              const py::dict& failures, const py::object& callback) {
-  const Interruption interruption;
-  const Asked asked{asked_stepping(system, method, asked_for),
-                    steps,
-                    every,
-                    static_cast<std::size_t>(states.shape(0)),
-                    static_cast<std::size_t>(states.shape(1)),
-                    static_cast<std::size_t>(to.shape(1)),
-                    states.data(),
-                    to.mutable_data(),
-                    reached.mutable_data(),
-                    done.mutable_data(),
-                    callback.is_none() ? SharedObject() : SharedObject(callback)};
-  const auto take_in = asked.start.quad ? &take<Quad> : &take<double>;
-  take_in(asked, threads, interruption.stop(), times.mutable_data(), failures);
+              std::int64_t steps, std::int64_t every, std::size_t threads, const py::object& callback,
+              py::dict& into) {
+  const py::ssize_t count = states.shape(0), rows = 1 + steps / every;
+  py::array_t<double> t(rows), y({count, rows, states.shape(1)});
+  py::array_t<bool> done(count);
+  std::vector<std::int64_t> reached(static_cast<std::size_t>(count));
+  std::fill_n(t.mutable_data(), rows, std::numeric_limits<double>::quiet_NaN());
+  std::fill_n(done.mutable_data(), count, false);
+  py::dict failures;
+  Asked asked{{},
+              steps,
+              every,
+              reached.size(),
+              static_cast<std::size_t>(states.shape(1)),
+              static_cast<std::size_t>(rows),
+              states.data(),
+              t.mutable_data(),
+              y.mutable_data(),
+              reached.data(),
+              done.mutable_data(),
+              callback.is_none() ? SharedObject() : SharedObject(callback)};
+  const auto give = [&] {
+    const auto begun = static_cast<py::ssize_t>(asked.begun());
+    const auto of_begun = [&](const py::array& all) {
+      return begun == count ? py::object(all) : py::object(all[py::slice(0, begun, 1)]);
+    };
+    into["t"] = t, into["y"] = of_begun(y), into["done"] = of_begun(done), into["failures"] = failures;
+  };
+  try {
+    const Interruption interruption;
+    asked.start = asked_stepping(system, method, asked_for);
+    (asked.start.quad ? &take<Quad> : &take<double>)(asked, threads, interruption.stop(), failures);
+  } catch (...) {
+    give();
+    throw;
+  }
+  give();
 }
 }  // namespace
 
