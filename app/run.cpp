@@ -16,6 +16,7 @@
 #include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/bench/runner/row_file.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
+#include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/runs/motion.hpp>
 
@@ -93,16 +94,6 @@ ResolvedRun resolved_run(const RunOptions& options) {
     throw InputError(options.config + ": " + in_one_line(changed) +
                      "; expected what it was made from, or --force to run it as things are now");
   return run;
-}
-
-// What becomes of a duration that is no multiple of the step; empty where it is one.
-std::string of_the_last_step(const ResolvedRun& run) {
-  if (run.adaptive()) return {};
-  const Quad end = run.step.quad() * Quad(static_cast<double>(run.steps)), time = run.time.quad();
-  if (abs(end - time) < Quad(1e-9) * abs(time)) return {};
-  return "the run lasts " + to_string(end, 12) + ", not " + to_string(time, 12) + ": " +
-         std::to_string(run.steps) + (run.steps == 1 ? " step" : " whole steps") + " of " +
-         to_string(run.step) + ", and none is shortened";
 }
 
 // Prints what a run left, made now or before, and gives the exit status.
@@ -212,8 +203,8 @@ void refuse_to_replace(const KeptRun& kept, const std::string& out) {
 int run(const RunOptions& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
   const Measures measures = fitting_measures(options.measures, options.out, resolved);
-  if (const std::string end = of_the_last_step(resolved); !end.empty() && !common.quiet)
-    std::cerr << "pfaff: " << end << '\n';
+  if (const std::string duration = other_duration(resolved); !duration.empty() && !common.quiet)
+    std::cerr << "pfaff: " << duration << '\n';
   if (options.out == "-") return run_to_standard_output(resolved, common);
   const std::filesystem::path directory = options.out;
   std::vector<std::string> ours = run_file_names();

@@ -78,6 +78,19 @@ void Integration<T>::watch(Watcher<T>& watcher, std::int64_t every) {
   watching_.push_back({.watcher = &watcher, .every = every});
 }
 
+// Watchers that are asked and shown a block stay where they are in the list until that is done.
+template <class T>
+void Integration<T>::unwatch(const Watcher<T>& watcher) {
+  for (Watching& w : watching_)
+    if (w.watcher == &watcher) w.watcher = nullptr;
+}
+
+// Leaves out those who do not watch any more.
+template <class T>
+void Integration<T>::close_up() {
+  std::erase_if(watching_, [](const Watching& w) { return w.watcher == nullptr; });
+}
+
 template <class T>
 Outcome Integration<T>::ended(std::int64_t begin, Outcome::End end, Status status) const {
   // Of steps that were chosen, those are counted that were taken, and not the intervals between two looks.
@@ -182,7 +195,7 @@ bool Integration<T>::look() {
   block_.states.fill_behind(filled);
   for (Watching& w : watching_) {
     thin(w);
-    if (w.shown->rows == 0) continue;
+    if (w.watcher == nullptr || w.shown->rows == 0) continue;
     const std::size_t row = w.watcher->end(*this, *w.shown);
     if (row < w.shown->rows) last = std::min(last, block_.row_of(w.shown->step(row)));
   }
@@ -196,7 +209,8 @@ bool Integration<T>::look() {
     for (const Watching& w : watching_) end_at(taken_, *w.shown);
   }
   for (const Watching& w : watching_)
-    if (w.shown->rows > 0) w.watcher->look(*this, *w.shown);
+    if (w.watcher != nullptr && w.shown->rows > 0) w.watcher->look(*this, *w.shown);
+  close_up();
   return ends;
 }
 
@@ -234,6 +248,7 @@ Outcome Integration<T>::steps(std::int64_t count) {
   if (adaptive() && count > 0 && value_of(start_.h) == Value<T>(0))
     throw InputError(
         "step: expected the time between two looks beside the tolerance, got 0; to() needs none");
+  close_up();
   const std::int64_t begin = taken_, most = static_cast<std::int64_t>(start_.block_rows);
   const std::int64_t end = count > std::numeric_limits<std::int64_t>::max() - std::max<std::int64_t>(0, begin)
                                ? std::numeric_limits<std::int64_t>::max()

@@ -87,9 +87,12 @@ class Integration {
   /// What the method remembers is forgotten: the next step is the one that a new integration takes from here.
   void forget() { stepper_->forget(); }
 
-  /// Shows `watcher`, which must outlive the integration, the states after each `every` steps, counted from
-  /// t0.
+  /// Shows `watcher`, which must outlive the integration unless unwatch() is called before, the states after
+  /// each `every` steps, counted from t0.
   void watch(Watcher<T>& watcher, std::int64_t every = 1);
+  /// From now on `watcher` is asked and shown nothing, however often it watches; nothing happens where it
+  /// does not. It may be called from within a call of a watcher.
+  void unwatch(const Watcher<T>& watcher);
   /// Ends calls of steps() and to() between two steps once the flag is set, which must outlive the
   /// integration.
   void stop_when(const std::atomic<bool>& asked) { asked_ = &asked; }
@@ -105,7 +108,7 @@ class Integration {
 
  private:
   struct Watching {
-    Watcher<T>* watcher;
+    Watcher<T>* watcher;  // null once it does not watch any more
     std::int64_t every;
     std::unique_ptr<Block<T>> thinned{};  // where it looks at fewer steps than a block has
     Block<T>* shown = nullptr;            // what it sees of the block
@@ -116,6 +119,7 @@ class Integration {
   Status fill_and_look(std::int64_t stride, std::int64_t rows, bool& ends);
   void up_to_the_failure(std::int64_t steps);
   void thin(Watching& watching);
+  void close_up();
   bool look();
   Status advance_to(const T& t);
   Outcome to_between(const T& t, std::int64_t begin);

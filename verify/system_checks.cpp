@@ -70,14 +70,10 @@ void invariants(std::vector<Check>& checks, const std::string& name, FollowedMot
   const auto& list = model.invariants();
   if (list.empty()) return;
   const int n = model.dimension();
-  const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
+  const auto values = model.tape(Formula::invariants);
   region.domain = values;  // a rate may have a value where the quantity has none
   for (std::size_t k = 0; k < list.size(); ++k) {
-    // dI/dt along the field.
-    const auto rate = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {
-      const auto x = evaluate(*field, t, z);
-      out[0] = directional_derivative(*values, t, Recorded(1), z, x)[k];
-    });
+    const auto rate = rates_of_invariants(model, {k});
     if (list[k].behaviour == Behaviour::conserved) {
       // A constraint that follows from the others is zero on all of their surface, and is to be.
       const auto& redundant = model.source().redundant_constraints;

@@ -97,6 +97,16 @@ std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
   });
 }
 
+std::shared_ptr<const Tape> rates_of_invariants(const Model& model, const std::vector<std::size_t>& which) {
+  const auto values = model.tape(Formula::invariants), field = model.tape(Formula::field);
+  const auto count = static_cast<int>(which.size());
+  return expression(model.dimension(), count, [&](const Recorded& t, Arguments z, Results out) {
+    const auto x = evaluate(*field, t, z);
+    const auto rates = directional_derivative(*values, t, Recorded(1), z, x);
+    for (std::size_t k = 0; k < which.size(); ++k) out[k] = rates[which[k]];
+  });
+}
+
 std::vector<StatedIdentity> written_formulas(const Model& model) {
   std::vector<StatedIdentity> all;
   for (const FormulaRow& row : formula_table) {
@@ -124,6 +134,18 @@ std::vector<StatedIdentity> written_formulas(const Model& model) {
   return all;
 }
 
+namespace {
+// The invariants that are conserved at every state. With constraints they are where these hold, which a state
+// near the initial one is not.
+std::vector<std::size_t> conserved_everywhere(const Model& model) {
+  std::vector<std::size_t> conserved;
+  if (model.restricted() || !model.moves()) return conserved;
+  for (std::size_t k = 0; k < model.invariants().size(); ++k)
+    if (model.invariants()[k].behaviour == Behaviour::conserved) conserved.push_back(k);
+  return conserved;
+}
+}  // namespace
+
 void check_stated_identities(const Model& model, const Real& t, const std::vector<Real>& z) {
   constexpr int most_coordinates = 64;
   constexpr double most = 1e-6;
@@ -136,14 +158,22 @@ void check_stated_identities(const Model& model, const Real& t, const std::vecto
   }
   const std::vector<Real> beside = state_beside(z);
   const Real later = t + Real::fraction(1, 20);
-  for (const StatedIdentity& stated : identities_of(model)) {
-    const double first = relative_to_terms(results_of(stated.residual, t, z)),
-                 second = relative_to_terms(results_of(stated.residual, later, beside));
-    if (std::max(first, second) <= most) continue;
+  const auto refuse_false = [&](const std::string& words, double first, double second) {
+    if (std::max(first, second) <= most) return;
     throw InputError("system " + model.name() + ": false " +
                      (first > most ? "at the initial state" : "at a state near the initial one") + ": " +
-                     stated.words + " (off by " + formatted("%.2g", std::max(first, second)) +
+                     words + " (off by " + formatted("%.2g", std::max(first, second)) +
                      " of its terms); `pfaff verify` looks at all that a system states");
+  };
+  for (const StatedIdentity& stated : identities_of(model))
+    refuse_false(stated.words, relative_to_terms(results_of(stated.residual, t, z)),
+                 relative_to_terms(results_of(stated.residual, later, beside)));
+  if (const auto conserved = conserved_everywhere(model); !conserved.empty()) {
+    const auto rates = rates_of_invariants(model, conserved);
+    const auto first = results_of(rates, t, z), second = results_of(rates, later, beside);
+    for (std::size_t k = 0; k < conserved.size(); ++k)
+      refuse_false(model.invariants()[conserved[k]].name + " is conserved, and its behaviour not free",
+                   relative_to_terms({first[k]}), relative_to_terms({second[k]}));
   }
 }
 

@@ -1,5 +1,5 @@
 // What the author of a system states and a run can look at before it begins: a formula that is written is the
-// one that would be derived, K and the bracket are skew, K is regular.
+// one that would be derived, K and the bracket are skew, K is regular, what is said to be conserved is.
 #pragma once
 
 #include <cmath>
@@ -45,10 +45,15 @@ std::vector<StatedIdentity> written_formulas(const Model& model);
 /// Pi + Pi^T, n x n: zero where the tensor is skew.
 std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n);
 
-/// Refuses (InputError) a system whose K is singular at (t, z), or of which a statement is false at (t, z) or
-/// at one state near it: where a residual is more than a millionth of its terms, which no rounding is, nor a
-/// constant of seven digits. Where a formula has no value nothing is said. Systems of more than 64
-/// coordinates are not looked at, since deriving their formulas takes longer than a short run.
+/// The rates of these invariants along the field of a model, expressions of (t, z): zero where they are
+/// conserved.
+std::shared_ptr<const Tape> rates_of_invariants(const Model& model, const std::vector<std::size_t>& which);
+
+/// Refuses (InputError) a system whose K is singular at (t, z), or of which a statement, such as that an
+/// invariant is conserved, is false at (t, z) or at one state near it: where a residual is more than a
+/// millionth of its terms, which no rounding is, nor a constant of seven digits. Where a formula has no value
+/// nothing is said. Systems of more than 64 coordinates are not looked at, since deriving their formulas
+/// takes longer than a short run.
 void check_stated_identities(const Model& model, const Real& t, const std::vector<Real>& z);
 
 }  // namespace pfaff

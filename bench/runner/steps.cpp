@@ -136,6 +136,16 @@ Real towards(const Real& duration, const Real& step) {
   return (step < Real(0)) == (duration < Real(0)) ? step : -step;
 }
 
+std::string other_duration(const ResolvedRun& run) {
+  if (run.adaptive()) return {};
+  const Quad end = run.step.quad() * Quad(static_cast<double>(run.steps)), time = run.time.quad();
+  const Quad round_off = Quad(4 * std::numeric_limits<double>::epsilon()) * abs(time);
+  if (abs(end - time) <= Quad(1e-9) * abs(run.step.quad()) + round_off) return {};
+  return "the run lasts " + to_string(end, 15) + ", not " + to_string(time, 15) + ": " +
+         std::to_string(run.steps) + (run.steps == 1 ? " step" : " whole steps") + " of " +
+         to_string(run.step) + ", and none is shortened";
+}
+
 void resolve_steps(ResolvedRun& run) {
   if (run.adaptive()) {
     resolve_tolerance(run);

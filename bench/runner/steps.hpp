@@ -18,4 +18,8 @@ Real towards(const Real& duration, const Real& step);
 // or what nothing is left of in the precision of the run.
 void resolve_steps(ResolvedRun& run);
 
+/// What a run lasts whose duration is no multiple of its step, a sentence without a full stop; empty where it
+/// is one, to a billionth of a step and to round-off of numbers that were given as doubles.
+std::string other_duration(const ResolvedRun& run);
+
 }  // namespace pfaff

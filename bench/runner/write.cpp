@@ -2,6 +2,7 @@
 #include <boost/version.hpp>
 
 #include <pfaff/bench/runner/record.hpp>
+#include <pfaff/bench/runner/steps.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/counter_fields.hpp>
 #include <pfaff/runs/support/links.hpp>
@@ -78,6 +79,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
   } else {
     j["step"] = to_string(run.step);
     j["steps"] = run.steps;
+    if (const std::string other = other_duration(run); !other.empty()) j["duration"] = other;
   }
   j["completed"] = record.completed;
   j["status"] = record.interrupted ? "interrupted" : to_string(record.status);

@@ -50,6 +50,7 @@ std::optional<Decimal> as_decimal(std::string_view text) {
     if (text[i] != 'e' && text[i] != 'E') return std::nullopt;
     ++i;
     if (i < text.size() && text[i] == '+') ++i;
+    if (i < text.size() && text[i] == '-' && text[i - 1] == '+') return std::nullopt;
     int e = 0;
     const auto [end, error] = std::from_chars(text.data() + i, text.data() + text.size(), e);
     if (error != std::errc() || end != text.data() + text.size() || e > 100000 || e < -100000)
@@ -102,17 +103,20 @@ std::optional<Real> Real::parse(std::string_view text) {
     if (!a || !b || b->is(0)) return std::nullopt;
     return *a / *b;
   }
-  Quad value;
-  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos ||
-      !pfaff::parse(text, value) || !isfinite(value))
+  if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
     return std::nullopt;
-  Real result(value);
+  Real result{Quad(0)};
   if (const auto decimal = as_decimal(text); decimal && decimal->exponent <= 18 && decimal->exponent >= -18) {
     std::int64_t power = 1;
     for (int k = 0; k < std::abs(decimal->exponent); ++k) power *= 10;
     const Wide numerator = decimal->exponent > 0 ? static_cast<Wide>(decimal->digits) * power
                                                  : static_cast<Wide>(decimal->digits);
-    result = Real::fold(Real(0), Real(0), value, numerator, decimal->exponent < 0 ? power : 1);
+    result = Real::fold(Real(0), Real(0), Quad(0), numerator, decimal->exponent < 0 ? power : 1);
+  }
+  if (!result.is_fraction()) {  // whose quad is not at hand
+    Quad value;
+    if (!pfaff::parse(text, value) || !isfinite(value)) return std::nullopt;
+    result = Real(value);
   }
   // The double nearest to the text itself, not to its quad rounding.
   double nearest = 0;

@@ -19,7 +19,8 @@ from ._errors import InputError, Interrupted, JumpWarning, NotConverged, RunFail
 from ._evaluation import Evaluation, bracket, evaluate
 from ._experiments import Comparison, Table, WorkPrecision, compare, experiments
 from ._falsification import Counterexample, Falsification, Falsifications, falsify
-from ._integration import Integration, Outcome
+from ._integration import Integration, Outcome, Watching
+from ._measure_table import MeasureTable
 from ._method import Method, method, methods, table
 from ._papers import Reproduced, Reproduction, papers, reproduce
 from ._run import Run, run
@@ -49,6 +50,7 @@ __all__ = [
     "Integration",
     "Interrupted",
     "JumpWarning",
+    "MeasureTable",
     "Method",
     "NotConverged",
     "Outcome",
@@ -61,6 +63,7 @@ __all__ = [
     "Table",
     "TraceError",
     "Watched",
+    "Watching",
     "WorkPrecision",
     "__version__",
     "bracket",

@@ -34,6 +34,36 @@ class Outcome:
     """The states, shape (rows, dimension); the one at which the call began is not among them."""
 
 
+class Watching:
+    """A callback that watches an integration until remove() is called, or the end of the block where it is used as a context manager.
+
+    >>> import pfaff
+    >>> it, seen = pfaff.Integration("kepler", "verlet", step=0.01), []
+    >>> with it.watch(lambda t, z: seen.append(t), every=5):
+    ...     taken = it.steps(10)
+    >>> taken = it.steps(10)
+    >>> seen
+    [0.05, 0.1]
+    """
+
+    def __init__(self, it: _pfaff.Integration, number: int) -> None:
+        self._it, self._number = it, number
+
+    def remove(self) -> None:
+        """The callback is not called from now on; nothing happens where it was removed before.
+
+        It may be removed by itself, by another callback and by another thread while steps are taken. Since steps are taken
+        many at a time, it may then have been called for steps behind those that another callback has seen.
+        """
+        self._it.unwatch(self._number)
+
+    def __enter__(self) -> Watching:
+        return self
+
+    def __exit__(self, *raised: object) -> None:
+        self.remove()
+
+
 class Integration:
     """An integration, which is stepped by its user.
 
@@ -71,23 +101,9 @@ class Integration:
                  scales: str = "motion", precision: str = "double", formulation: str | None = None, system_parameters: Mapping[str, Any] | None = None,
                  method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> None:
         self.system, self.method = with_parameters(system, method, parameters, system_parameters, method_parameters)
-        if not isinstance(precision, str) or precision not in ("double", "quad"):
-            raise InputError(unknown("precision", precision, ["double", "quad"]))
-        if step is None and tolerance is None:
-            raise InputError("step: expected a number other than 0, or a tolerance for a method that chooses its steps")
-        if not isinstance(scales, str) or scales not in ("motion", "step"):
-            raise InputError(unknown("scales", scales, ["motion", "step"]))
+        asked = asked_steps(step=step, t0=t0, tolerance=tolerance, absolute=absolute, scales=scales, precision=precision, formulation=formulation)
         self.precision = precision
-        asked = {
-            "step": text_of_number(0 if step is None else step, "step"),
-            "initial": self._own_state() if initial is None else self._state(initial, "initial"),
-            "t0": text_of_number(t0, "t0"),
-            "tolerance": "" if tolerance is None else text_of_number(tolerance, "tolerance"),
-            "absolute": texts_of_tolerances(absolute, "absolute"),
-            "scales": scales,
-            "formulation": "" if formulation is None else text(formulation, "formulation", "the name of a formulation"),
-            "quad": precision == "quad",
-        }
+        asked["initial"] = self._own_state() if initial is None else self._state(initial, "initial")
         self._it = _pfaff.Integration(self.system.model, self.method.instance, asked)
         self.outcome: Outcome | None = None
 
@@ -168,14 +184,14 @@ class Integration:
             raise failed
         return outcome
 
-    def watch(self, callback: Callable[[float, np.ndarray], Any], *, every: int = 1) -> None:
-        """Calls callback(t, z) with the state after each `every` steps, counted from t0, from now on.
+    def watch(self, callback: Callable[[float, np.ndarray], Any], *, every: int = 1) -> Watching:
+        """Calls callback(t, z) with the state after each `every` steps, counted from t0, from now on, until what it gives is removed.
 
         z is a copy, shape (dimension,). The integration ends at the state at which the callback gives True. What it
         raises ends it there too, and reaches who asked for the steps. Callbacks cannot step the integration, whose own time
         and state may be ahead of t and z by then: steps are taken many at a time.
         """
-        self._it.watch(function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1))
+        return Watching(self._it, self._it.watch(function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1)))
 
     def beside(self, state: Any) -> Integration:
         """The same method from another state, at the time reached and with the same step. It remembers nothing."""
@@ -221,6 +237,26 @@ class Integration:
 
     def __reduce__(self) -> Any:
         raise TypeError("an integration cannot be pickled, since its method may remember steps; expected its system, its method and its state")
+
+
+def asked_steps(*, step: Any, t0: Any, tolerance: Any, absolute: Any, scales: Any, precision: Any, formulation: Any) -> dict[str, Any]:
+    """What is asked of an integration, but for its state, in the form that the library takes. InputError for what is of the wrong kind."""
+    if not isinstance(precision, str) or precision not in ("double", "quad"):
+        raise InputError(unknown("precision", precision, ["double", "quad"]))
+    if step is None and tolerance is None:
+        raise InputError("step: expected a number other than 0, or a tolerance for a method that chooses its steps")
+    if not isinstance(scales, str) or scales not in ("motion", "step"):
+        raise InputError(unknown("scales", scales, ["motion", "step"]))
+    return {
+        "step": text_of_number(0 if step is None else step, "step"),
+        "initial": [],
+        "t0": text_of_number(t0, "t0"),
+        "tolerance": "" if tolerance is None else text_of_number(tolerance, "tolerance"),
+        "absolute": texts_of_tolerances(absolute, "absolute"),
+        "scales": scales,
+        "formulation": "" if formulation is None else text(formulation, "formulation", "the name of a formulation"),
+        "quad": precision == "quad",
+    }
 
 
 def attach(error: BaseException, run: Any) -> None:

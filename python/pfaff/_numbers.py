@@ -72,7 +72,7 @@ def text_of_number(value: Any, what: str) -> str:
     text = value.strip() if isinstance(value, str) else text_of_constant(value)
     if not text:
         raise InputError(f"{what}: expected a number, got {shown(value)}")
-    if not isinstance(value, str) and not any(c.isdigit() for c in text):
+    if not isinstance(value, str) and text.lstrip("-").isalpha():
         raise InputError(f"{what}: expected a finite number, got {shown(value)}")
     return text
 
@@ -128,6 +128,8 @@ def texts_of_state(values: Any, what: str, expected: str = "a list or an array o
 
 def texts_of_tolerances(values: Any, what: str) -> list[str]:
     """The texts of absolute tolerances: one number, or a list of them."""
+    if isinstance(values, (tuple, list)) and not values:
+        return []
     return texts_of_state([values] if _dimensions(values) == 0 else values, what, "one number, or one for each coordinate")
 
 

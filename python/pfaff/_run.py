@@ -16,6 +16,7 @@ from ._arguments import real_array, unknown
 from ._asked_run import asked_run, listed_measures
 from ._errors import InputError, NotConverged, RunFailed
 from ._integration import Integration, attach, with_parameters
+from ._measure_table import MeasureTable
 from ._naming import kebab
 from ._objects import as_system
 from ._sensitivity import sensitivity_of, warn_of_jumps
@@ -32,7 +33,7 @@ class Run:
     `run[name]` is a coordinate, a block of coordinates (shape (rows, count)), or an invariant.
     """
 
-    def __init__(self, system: Any, method: Any, going: Any, asked: dict[str, Any]) -> None:
+    def __init__(self, system: Any, method: Any, going: Any, asked: dict[str, Any], raised: BaseException | None = None) -> None:
         of = going.samples()
         self._going = going  # for the summary
         self.system, self.method, self._asked = system, method, asked
@@ -48,12 +49,12 @@ class Run:
         """The relative error against the reference, shape (rows,), NaN where it was not measured; None without one."""
         self.structure: np.ndarray | None = of["structure"]
         """The residual of the structure of one step, shape (rows,), NaN where it was not measured; or None."""
-        self.measures: dict[str, dict[str, Any]] = {name: columns for name, (columns, _) in of["tables"].items()}
-        """The tables of the measures that were asked for, each a dictionary of columns."""
+        self.measures: dict[str, MeasureTable] = {name: MeasureTable(name, *table) for name, table in of["tables"].items()}
+        """The tables of the measures that were asked for, by their names."""
         self.status: str = of["status"]
-        """'converged', or how the last step failed."""
-        self.message: str = of["message"]
-        """Why the run ended early; empty where it did not."""
+        """'converged', how the last step failed, or 'interrupted' where the steps were ended by Ctrl-C or by something that was raised."""
+        self.message: str = of["message"] or (str(raised).partition("\n")[0] or type(raised).__name__ if raised is not None else "")
+        """Why the run ended early, or is without what was asked for; empty where all is there."""
         self.coordinates: list[str] = of["coordinates"]
         self.units: dict[str, str] = of["units"]
         self._steps, self._initial, self._step, self._t0 = of["steps"], of["initial"], of["step"], of["t0"]
@@ -159,7 +160,7 @@ class Run:
         columns = {"t": self.t, **dict(zip(self.coordinates, self.y.T)), **self.invariants, **self.constraints}
         if self.error is not None:
             columns["error"] = self.error
-        return data_frame(list(columns), list(zip(*columns.values())))
+        return data_frame(list(columns), list(zip(*columns.values())), {**self.units, **dict.fromkeys(self.constraints, "1")})
 
     def plot(self, kind: str = "trajectory", **keywords: Any) -> Any:
         """Draws the run in the style of the report, and returns matplotlib's axes, or an animation.
@@ -193,8 +194,8 @@ class Run:
         error = f", largest error {self.error_max:.3g}" if self.error_max is not None else ""
         if "reference_ended" in self.summary:
             error += f", {'errors end early' if error else 'no errors'}: {self.summary['reference_ended']}"
-        ended = f"; {self.message}" if self.message else ""
-        return f"run of {self.system.name} by {self.method.name}: {span}{error}{ended}"
+        ended = self.message or self.summary.get("duration", "")
+        return f"run of {self.system.name} by {self.method.name}: {span}{error}{f'; {ended}' if ended else ''}"
 
     _COLUMNS = ("quantity", "class", "max", "slope", "slope_low", "slope_high")
 
@@ -255,7 +256,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         method: a name, the path of a table, a dictionary of coefficients, or a pfaff.Method.
         step: the step, > 0; or `tolerance`, for a method that chooses its steps: the error of a step in each coordinate,
             relative to the largest size that the coordinate has had so far in the motion.
-        time: the duration; a negative one goes back in time.
+        time: the duration; a negative one goes back in time. The last whole step ends within it, which the run says where
+            it is no multiple of the step.
         every: the steps between two samples; 0 chooses for about a thousand samples.
         initial: the state, shape (dimension,); without it the system's own.
         initial_velocities: beside it, with the positions alone: the velocities, from which the momenta follow.
@@ -300,7 +302,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     except InputError:
         raise
     except BaseException as error:
-        attach(error, Run(base, tool, going, asked))
+        attach(error, Run(base, tool, going, asked, error))
         raise
     result = Run(base, tool, going, asked)
     try:
@@ -321,7 +323,7 @@ def _name_of(function: Callable[[Run], Any]) -> str:
     return kebab(getattr(function, "__name__", type(function).__name__))
 
 
-def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
+def _measured(function: Callable[[Run], Any], result: Run) -> MeasureTable:
     """The table of a measure that is a function of the run."""
     given, measure = function(result), _name_of(function)
     columns = dict(given) if isinstance(given, Mapping) else {measure: given}
@@ -331,4 +333,4 @@ def _measured(function: Callable[[Run], Any], result: Run) -> dict[str, Any]:
         table[name] = real_array(values, f"measure {measure}", expected)
         if table[name].shape != result.t.shape:
             raise InputError(f"measure {measure}: expected {expected}, got shape {table[name].shape}")
-    return table
+    return MeasureTable(measure, table, {"t": result.units["t"], **dict.fromkeys(columns, "")})

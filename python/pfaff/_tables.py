@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import dataclasses
 import html
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
@@ -73,13 +73,16 @@ def bar(fraction: float, good: bool) -> str:
     )
 
 
-def data_frame(columns: Sequence[str], rows: Sequence[Sequence[Any]]) -> pandas.DataFrame:
-    """The rows as a data frame; ImportError, which says what is missing, without pandas."""
+def data_frame(columns: Sequence[str], rows: Sequence[Sequence[Any]], units: Mapping[str, str] | None = None) -> pandas.DataFrame:
+    """The rows as a data frame, whose attrs["units"] are the units where there are some; ImportError, which says what is missing, without pandas."""
     try:
         import pandas
     except ImportError:
         raise ImportError("to_pandas() needs pandas, which is not installed (Debian's python3-pandas)") from None
-    return pandas.DataFrame([list(row) for row in rows], columns=list(columns))
+    frame = pandas.DataFrame([list(row) for row in rows], columns=list(columns))
+    if units is not None:
+        frame.attrs["units"] = {name: units[name] for name in columns if name in units}
+    return frame
 
 
 def frame_of_fields(kind: Any, items: Sequence[Any]) -> pandas.DataFrame:

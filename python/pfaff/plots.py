@@ -200,8 +200,8 @@ def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
     columns = {
         f"{name}: {column}": (table, column)
         for name, table in run.measures.items()
-        for column, values in table.items()
-        if column != "step" and "step" in table and not any(isinstance(value, str) for value in values)
+        for column in table.units
+        if column != "step" and "step" in table
     }
     time = {"time_unit": _time_unit(run)}
     if kind == "trajectory":
@@ -219,7 +219,7 @@ def of_run(run: Run, kind: str = "trajectory", **keywords: Any) -> Any:
     if kind in columns:
         table, column = columns[kind]
         times = run.t[0] + np.asarray(table["step"], float) * float(run.summary["step"])
-        return _drawn(run, measure, keywords, times, table[column], kind, unit="", **time)
+        return _drawn(run, measure, keywords, times, table[column], kind, unit=table.units[column], **time)
     known = ["trajectory", "phase portrait", "drift", "constraints", *series, "animation", *columns]
     if kind in known:
         raise InputError(f"plot: the run has no {kind}")

@@ -1,14 +1,11 @@
 // Integrations: `_pfaff.Integration`.
 #include <pybind11/stl.h>
 
-#include <limits>
-
 #include <pfaff/python/src/arrays.hpp>
+#include <pfaff/python/src/asked_stepping.hpp>
 #include <pfaff/python/src/bindings.hpp>
-#include <pfaff/python/src/interruption.hpp>
 #include <pfaff/python/src/objects.hpp>
 #include <pfaff/python/src/stepping.hpp>
-#include <pfaff/runs/start.hpp>
 #include <pfaff/runs/support/counter_fields.hpp>
 
 namespace py = pybind11;
@@ -16,35 +13,8 @@ namespace py = pybind11;
 namespace pfaff::python {
 
 namespace {
-std::vector<Real> numbers_of(const std::vector<std::string>& texts, const std::string& what) {
-  std::vector<Real> numbers;
-  for (const std::string& text : texts) numbers.push_back(number_of(text, what));
-  return numbers;
-}
-
 std::unique_ptr<Stepping> stepping_of(const PySystem& system, const PyMethod& method, const py::dict& asked) {
-  const auto text = [&](const char* key) { return asked[key].cast<std::string>(); };
-  const auto texts = [&](const char* key) { return asked[key].cast<std::vector<std::string>>(); };
-  AskedStepping start;
-  start.method = method.method;
-  start.model = without_lock([&, formulation = text("formulation")] {
-    return model_for(*method.method, system.model, formulation);
-  });
-  start.state = numbers_of(texts("initial"), "initial");
-  start.h = number_of(text("step"), "step");
-  start.t0 = number_of(text("t0"), "t0");
-  if (const std::string tolerance = text("tolerance"); !tolerance.empty()) {
-    start.tolerance = number_of(tolerance, "tolerance");
-    const Quad round_off = asked["quad"].cast<bool>() ? std::numeric_limits<Quad>::epsilon()
-                                                      : Quad(std::numeric_limits<double>::epsilon());
-    if (start.tolerance.quad() > 0 && start.tolerance.quad() < round_off)
-      throw InputError("tolerance: " + tolerance + " is below round-off, which is " +
-                       to_string(round_off, 3) + "; expected at least that");
-    check_tolerances(*start.method, *start.model, start.tolerance.quad(), {});  // where it is 0, too
-  }
-  start.absolute = numbers_of(texts("absolute"), "absolute");
-  start.tolerance_forgets = asked["scales"].cast<std::string>() == "step";
-  return make_stepping(start, asked["quad"].cast<bool>());
+  return make_stepping(asked_stepping(system, method, asked));
 }
 
 py::dict counters_of(const Stepping& run) {
@@ -97,7 +67,8 @@ void bind_integrations(py::module_& module) {
              r.go_on_from(numbers_of(z, "state"), given(t0, "t0"), given(h, "step"));
            })
       .def("watch", [](Stepping& r, py::object callback,
-                       std::int64_t every) { r.watch(SharedObject(std::move(callback)), every); })
+                       std::int64_t every) { return r.watch(SharedObject(std::move(callback)), every); })
+      .def("unwatch", &Stepping::unwatch)
       .def("jacobian", [](const Stepping& r, std::int64_t count) {
         const auto [end, rows] = r.jacobian(count);
         const auto n = static_cast<py::ssize_t>(end.size());

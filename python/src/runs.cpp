@@ -157,6 +157,17 @@ RunSettings settings_of(const PySystem& system, const PyMethod& method, const py
   return settings;
 }
 
+// Work beside the steps of a run, of which it is said `during` what it was where Ctrl-C ends it.
+template <class Work>
+auto interruptible(const char* during, const Work& work) {
+  try {
+    return work();
+  } catch (const BudgetSpent& spent) {
+    if (!spent.stopped()) throw;
+    throw RunError(std::string("it was interrupted while ") + during);
+  }
+}
+
 class RunInProgress {
  public:
   RunInProgress(const PySystem& system, const PyMethod& method, const py::dict& asked)
@@ -173,14 +184,17 @@ class RunInProgress {
   void execute() {
     const Interruption interruption;
     without_lock([&] {
-      const auto reference = reference_asked_for(run_);
+      const auto reference = interruptible("its reference was computed, before the first step",
+                                           [&] { return reference_asked_for(run_); });
       std::optional<Files> files;
       if (!run_.adaptive())
         columns_.reserve(static_cast<std::size_t>(std::min(run_.rows(), most_reserved) + 1), *run_.model);
       if (!out_.empty()) columns_.also = &files.emplace(run_, out_, written_).series();
       record_ = pfaff::execute(run_, reference.get(), {}, &interruption.stop(), &columns_);
       if (files) files->finish(summary(run_, *record_));
-      if (!record_->interrupted && !measures_.empty()) tables_ = measured_tables();
+      if (!record_->interrupted && !measures_.empty())
+        tables_ = interruptible("measures looked at it, which its tables are without",
+                                [&] { return measured_tables(); });
     });
     if (record_->interrupted && interruption.taken()) raise_interrupted(record_->message.c_str());
   }
@@ -221,7 +235,8 @@ class RunInProgress {
     result["initial"] = texts_of(run_.initial);
     result["step"] = to_string(run_.step);
     result["t0"] = to_string(run_.t0);
-    result["status"] = record_ ? std::string(to_string(record_->status)) : "";
+    const bool ended = record_ && !record_->interrupted;
+    result["status"] = ended ? to_string(record_->status) : "interrupted";
     result["message"] = record_ ? in_words_of_python(record_->message) : "";
     result["tables"] = tables_of_measures();
     return result;
@@ -241,15 +256,21 @@ class RunInProgress {
     py::dict result;
     for (std::size_t k = 0; k < tables_.size(); ++k) {
       const MeasuredTable& table = tables_[k];
-      py::dict columns;
+      py::dict columns, units;
       py::array_t<std::int64_t> steps(static_cast<py::ssize_t>(table.lines.size()));
       for (std::size_t row = 0; row < table.lines.size(); ++row)
         steps.mutable_data()[row] = table.lines[row].step;
       columns["step"] = std::move(steps);
-      for (std::size_t i = 0; i < table.columns.size(); ++i)
-        columns[py::str(table.columns[i].name)] =
-            table.columns[i].kind == Column::Kind::text ? texts_of(table, i) : numbers_of(table, i);
-      result[py::str(measures_[k]->descriptor().name)] = py::make_tuple(columns, table.ended);
+      units["step"] = "";
+      for (std::size_t i = 0; i < table.columns.size(); ++i) {
+        const Column& column = table.columns[i];
+        const py::str name(column.name);
+        const bool numbers = column.kind == Column::Kind::number;
+        columns[name] = numbers ? numbers_of(table, i) : texts_of(table, i);
+        if (numbers) units[name] = column.unit;
+      }
+      result[py::str(measures_[k]->descriptor().name)] =
+          py::make_tuple(columns, units, in_words_of_python(table.ended));
     }
     return result;
   }

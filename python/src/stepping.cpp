@@ -1,6 +1,7 @@
 #include <pfaff/python/src/stepping.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <utility>
 
@@ -23,19 +24,26 @@ bool is_true(const py::object& answer) {
   return py::isinstance(answer, kind) && answer.cast<bool>();
 }
 
-// Keeps the states that go by, while it is told to.
+// Keeps the states that go by, while it lives; none where `every` is 0.
 template <class T>
 class Keeper final : public Watcher<T> {
  public:
+  Keeper(Integration<T>& run, std::int64_t every) : run_(run) {
+    if (every > 0) run_.watch(*this, every);
+  }
+  ~Keeper() override { run_.unwatch(*this); }
+  Keeper(const Keeper&) = delete;
+  Keeper& operator=(const Keeper&) = delete;
   void start(const Integration<T>& /*run*/) override {}
   void look(const Integration<T>& /*run*/, const Block<T>& block) override {
-    if (!keeps) return;
     const std::size_t n = block.states.components();
     copy_times(block, {.count = block.rows}, t.extend(block.rows));
     copy_rows(block.states, {.count = block.rows}, y.extend(n * block.rows));
   }
-  bool keeps = false;
   Numbers t, y;
+
+ private:
+  Integration<T>& run_;
 };
 
 // Calls a function of Python.
@@ -48,6 +56,7 @@ class Caller final : public Watcher<T> {
   // raises something.
   std::size_t end(const Integration<T>& /*run*/, const Block<T>& block) override {
     std::size_t row = 0;
+    if (removed_) return block.rows;
     try {
       with_lock([&] {
         std::vector<T> z(block.states.components());
@@ -59,6 +68,7 @@ class Caller final : public Watcher<T> {
           const py::object answer = callback_.get()(static_cast<double>(block.time(row)),
                                                     array_of(std::span<const double>(in_double)));
           if (is_true(answer)) return;
+          if (removed_) row = block.rows - 1;
         }
       });
     } catch (const PythonError&) {
@@ -67,9 +77,13 @@ class Caller final : public Watcher<T> {
     return row;
   }
   void look(const Integration<T>& /*run*/, const Block<T>& /*block*/) override {}
+  // It is not called from now on, whoever takes steps meanwhile.
+  void remove() { removed_ = true; }
+  [[nodiscard]] bool removed() const { return removed_; }
 
  private:
   SharedObject callback_;
+  std::atomic<bool> removed_{false};
 };
 
 template <class T>
@@ -133,10 +147,16 @@ class SteppingIn final : public Stepping {
     const Using use(*this);
     run_.go_on_from(scalars_of<T>(state), t0 ? T(*t0) : run_.time(), h ? T(*h) : run_.step());
   }
-  void watch(SharedObject callback, std::int64_t every) override {
+  std::int64_t watch(SharedObject callback, std::int64_t every) override {
     const Using use(*this);
-    callers_.push_back(std::make_unique<Caller<T>>(std::move(callback)));
-    run_.watch(*callers_.back(), every);
+    auto caller = std::make_unique<Caller<T>>(std::move(callback));
+    run_.watch(*caller, every);
+    callers_.emplace(++watched_, std::move(caller));
+    return watched_;
+  }
+  void unwatch(std::int64_t number) override {
+    if (const auto found = callers_.find(number); found != callers_.end()) found->second->remove();
+    if (!in_use_) drop_removed();
   }
 
   std::pair<std::vector<double>, std::vector<double>> jacobian(std::int64_t count) const override {
@@ -166,7 +186,10 @@ class SteppingIn final : public Stepping {
             "this integration is taking steps in another call; expected one at a time, and none from its own "
             "callbacks");
     }
-    ~Using() { of_.in_use_ = false; }
+    ~Using() {
+      of_.in_use_ = false;
+      of_.drop_removed();
+    }
     Using(const Using&) = delete;
     Using& operator=(const Using&) = delete;
 
@@ -187,28 +210,27 @@ class SteppingIn final : public Stepping {
     Budget budget_;
   };
 
-  Keeper<T>& keeper_of(std::int64_t every) {
-    auto& keeper = keepers_[every];
-    if (keeper == nullptr) {
-      keeper = std::make_unique<Keeper<T>>();
-      run_.watch(*keeper, every);
+  void drop_removed() {
+    for (auto one = callers_.begin(); one != callers_.end();) {
+      if (!one->second->removed()) {
+        ++one;
+        continue;
+      }
+      run_.unwatch(*one->second);
+      one = callers_.erase(one);
     }
-    return *keeper;
   }
 
   template <class Take>
   void take(std::int64_t every, const Take& steps) {
     const Using use(*this);
     last_ = {};
-    Keeper<T>* const keeper = every > 0 ? &keeper_of(every) : nullptr;
-    if (keeper != nullptr) keeper->keeps = true;
+    Keeper<T> keeper(run_, every);
     const std::int64_t begin = steps_taken();
     // However the call ends: what was kept, and how far it came.
     const auto note = [&] {
       last_.steps = steps_taken() - begin;
-      if (keeper == nullptr) return;
-      keeper->keeps = false;
-      last_.t = std::move(keeper->t), last_.y = std::move(keeper->y);
+      last_.t = std::move(keeper.t), last_.y = std::move(keeper.y);
     };
     try {
       without_lock([&] {
@@ -228,8 +250,8 @@ class SteppingIn final : public Stepping {
   }
 
   Integration<T> run_;
-  std::map<std::int64_t, std::unique_ptr<Keeper<T>>> keepers_;  // by their number of steps
-  std::vector<std::unique_ptr<Caller<T>>> callers_;
+  std::map<std::int64_t, std::unique_ptr<Caller<T>>> callers_;  // by their numbers
+  std::int64_t watched_ = 0;                                    // the last of these
   StepsTaken last_;
   std::int64_t allowed_ = BudgetLimits::unlimited;
   bool in_use_ = false;  // under Python's lock
@@ -237,16 +259,12 @@ class SteppingIn final : public Stepping {
 
 template <class T>
 std::unique_ptr<Stepping> made(const AskedStepping& asked) {
-  Start<T> start{asked.model, asked.method, scalars_of<T>(asked.state),
-                 T(asked.h),  T(asked.t0),  T(asked.tolerance)};
-  start.absolute = scalars_of<T>(asked.absolute);
-  start.tolerance_forgets = asked.tolerance_forgets;
-  return std::make_unique<SteppingIn<T>>(begun(std::move(start)));
+  return std::make_unique<SteppingIn<T>>(begun(start_in<T>(asked)));
 }
 }  // namespace
 
-std::unique_ptr<Stepping> make_stepping(const AskedStepping& asked, bool quad) {
-  return without_lock([&] { return quad ? made<Quad>(asked) : made<double>(asked); });
+std::unique_ptr<Stepping> make_stepping(const AskedStepping& asked) {
+  return without_lock([&] { return asked.quad ? made<Quad>(asked) : made<double>(asked); });
 }
 
 std::shared_ptr<const Model> model_for(const MethodInstance& method,

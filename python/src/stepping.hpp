@@ -11,6 +11,7 @@
 
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/python/src/arrays.hpp>
+#include <pfaff/python/src/asked_stepping.hpp>
 #include <pfaff/python/src/callbacks.hpp>
 #include <pfaff/runs/integration.hpp>
 
@@ -59,25 +60,19 @@ class Stepping {
   virtual void go_on_from(const std::vector<Real>& state, const std::optional<Real>& t0,
                           const std::optional<Real>& h) = 0;
   /// `callback`(t, z) is called after each `every` steps; the integration ends there where it gives True.
-  virtual void watch(SharedObject callback, std::int64_t every) = 0;
+  /// Gives a number by which it is known.
+  virtual std::int64_t watch(SharedObject callback, std::int64_t every) = 0;
+  /// The callback of that number is not called any more. Other than the rest, it may be called while another
+  /// call takes steps, as a callback does.
+  virtual void unwatch(std::int64_t number) = 0;
   /// The state after so many steps from here, and its derivatives with respect to the state here, row-major.
   /// The integration stays where it is.
   [[nodiscard]] virtual std::pair<std::vector<double>, std::vector<double>> jacobian(
       std::int64_t count) const = 0;
 };
 
-/// What an integration begins with.
-struct AskedStepping {
-  std::shared_ptr<const Model> model;
-  std::shared_ptr<const MethodInstance> method;
-  std::vector<Real> state;
-  Real h, t0, tolerance;
-  std::vector<Real> absolute{};
-  bool tolerance_forgets = false;
-};
-
 /// InputError where what is asked for does not fit together, and where the state is not one to begin at.
-std::unique_ptr<Stepping> make_stepping(const AskedStepping& asked, bool quad);
+std::unique_ptr<Stepping> make_stepping(const AskedStepping& asked);
 
 /// The model that a method steps on, by a formulation that is named or, for an empty name, the usual one.
 std::shared_ptr<const Model> model_for(const MethodInstance& method,

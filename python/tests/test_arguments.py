@@ -69,7 +69,7 @@ CALLS = {
         "positions": {"nothing"}, "rods": {"nothing", "empty"}, "frames": {"number"}, "seconds": {"number"}}),
     "ensemble": (pfaff.ensemble, {"system": duffing, "method": "verlet", "states": [[1, 2]], "step": 0.1, "steps": 5}, {
         "system": (), "method": (), "states": (), "step": NUMBER, "steps": {"number"}, "every": {"number"}, "t0": NUMBER, "threads": {"number", "nothing"},
-        "callback": {"function", "nothing"}, "precision": (), **PARAMETERS}),
+        "tolerance": NUMBER | {"nothing", "text"}, "absolute": NUMBER | {"empty", "numbers"}, "scales": (), "callback": {"function", "nothing"}, "precision": (), **PARAMETERS}),
     "evaluate": (pfaff.evaluate, {"system": duffing}, {
         "system": (), "state": {"nothing", "numbers"}, "time": NUMBER, "formulation": {"nothing", "empty text"}, "precision": (), "centre": {"nothing"}, "alpha": NUMBER}),
     "bracket": (pfaff.bracket, {"f": lambda q: q, "g": lambda p: p, "z": [1, 2], "on": duffing}, {"f": (), "g": (), "z": {"numbers"}, "on": (), "time": NUMBER}),
@@ -232,7 +232,6 @@ def test_what_functions_and_dictionaries_give_is_refused_in_one_line(name):
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, out=5), "out: expected the path of a directory, got 5"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, initial=np.eye(3)), "got an array of shape (3, 3); pfaff.ensemble takes many initial states"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, measures=[lambda run: "x"]), "expected 11 numbers of lambda, one for each sample, got 'x'"),
-    (lambda: pfaff.ensemble(henon_heiles, "verlet", [[1, 2, 3, 4]], step=0.1, steps=1, precision="quad"), "expected pfaff.Integration(..., precision='quad') from each state"),
     (lambda: pfaff.ensemble(henon_heiles, "verlet", [[1, 2], [3]], step=0.1, steps=1), "states: expected real numbers, an array of shape (N, 4)"),
     (lambda: pfaff.evaluate(duffing, ["x", 1]), "state q of duffing: expected a finite decimal number or a/b, got 'x'"),
     (lambda: duffing(alpha="x"), "parameter 'alpha' of duffing: expected a finite"),

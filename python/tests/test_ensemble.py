@@ -98,3 +98,53 @@ def test_states_of_float32_are_the_same_alone_and_in_an_ensemble():
     assert np.array_equal(alone.state, states[0].astype(float))
     together = pfaff.ensemble("henon-heiles", "verlet", states, step=0.1, steps=10)
     assert np.array_equal(alone.steps(10, every=10).y[0], together.y[0, -1])
+
+
+@pytest.mark.parametrize("method, settings", [
+    ("gauss", {"precision": "quad"}),
+    ("odeint-dopri5", {"tolerance": 1e-9, "absolute": [1e-12] * 4}),
+    ("odeint-dopri5", {"tolerance": 1e-6, "scales": "step", "t0": 0.1}),
+    ("taylor", {"tolerance": "1e-20", "precision": "quad", "t0": "1/3"}),
+], ids=["quad", "tolerance", "scales", "both"])
+@pytest.mark.parametrize("threads", [1, 3])
+def test_quad_and_tolerances_have_the_bits_of_integrations(method, settings, threads):
+    ensemble = pfaff.ensemble(henon_heiles, method, STATES[:5], step=0.3, steps=10, every=3, threads=threads, **settings)
+    for k, state in enumerate(STATES[:5]):
+        it = pfaff.Integration(henon_heiles, method, step=0.3, initial=state, **settings)
+        rows = it.steps(10, every=3)
+        assert np.array_equal(ensemble.y[k, 1:], rows.y) and np.array_equal(ensemble.t[1:], rows.t) and np.array_equal(ensemble.y[k, 0], state)
+
+
+def test_a_step_control_that_gives_up_counts_the_steps_of_its_own_trajectory():
+    fall = [[1, 0, 0, 0], [0.5, 0, 0, 1.4], [1, 0, 0, 0]]
+    ensemble = pfaff.ensemble("kepler", "taylor", fall, step=1, steps=3, tolerance=1e-9, threads=1)
+    it = pfaff.Integration("kepler", "taylor", step=1, tolerance=1e-9, initial=fall[0])
+    with pytest.raises(pfaff.NotConverged) as failed:
+        it.steps(3)
+    assert ensemble.failures == {0: str(failed.value), 2: str(failed.value)} and ensemble.done.all()
+
+
+@pytest.mark.parametrize("settings, words", [
+    ({"tolerance": 2}, r"tolerance: expected a number in \(0, 1\]"),
+    ({"tolerance": 1e-40}, "tolerance: 1e-40 is below round-off"),
+    ({"tolerance": 1e-9, "absolute": [1, 2]}, "one for each of the 4 coordinates"),
+    ({"absolute": 1}, "expected a tolerance beside them"),
+    ({"tolerance": 1e-9, "step": 0}, "step: expected the time between two looks beside the tolerance"),
+    ({"step": None}, "step: expected a number other than 0, or a tolerance"),
+    ({"scales": "stpe"}, "did you mean 'step'"),
+    ({"precision": "half"}, "expected one of: double, quad"),
+    ({"precision": "quad"}, "has coefficients in double only"),
+])
+def test_ensembles_refuse_what_integrations_refuse(settings, words):
+    for make in (lambda **of: pfaff.ensemble(henon_heiles, "odeint-dopri5", STATES, steps=2, **of),
+                 lambda **of: pfaff.Integration(henon_heiles, "odeint-dopri5", initial=STATES[0], **of).steps(2)):
+        with pytest.raises(pfaff.InputError, match=words):
+            make(**{"step": 0.05, **settings})
+
+
+def test_what_was_never_begun_is_left_out_and_not_filled():
+    """Two gigabytes of rows, which take some seconds to fill."""
+    states = np.repeat(STATES[:1], 60, axis=0)
+    error, late = interrupted_after(0.2, lambda: pfaff.ensemble(henon_heiles, "verlet", states, step=0.05, steps=10**9, every=1000, threads=2))
+    assert late < 0.5 and len(error.run.y) == len(error.run.done) <= 2 and np.isnan(error.run.y[:, -1]).all()
+    assert np.isfinite(error.run.y[0, :10]).all() and error.run.t[-1] == 5e7 and len(error.run.t) == 10**6 + 1

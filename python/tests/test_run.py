@@ -183,7 +183,7 @@ def test_runs_that_end_early_keep_their_samples():
     run = caught.value.run
     assert 10 < len(run.t) and run.t[-1] < 1.3 and run.message and run.status == "non_finite"
     error, late = interrupted_after(0.3, lambda: pfaff.run(duffing, "gauss", step=1e-3, time=1e7, every=1000))
-    assert late < 0.1 and len(error.run.t) > 1 and "interrupted" in error.run.message
+    assert late < 0.1 and len(error.run.t) > 1 and "interrupted" in error.run.message and error.run.status == "interrupted"
 
     @pfaff.method(order=1, traced=False)
     def breaking(problem, t, h, z):

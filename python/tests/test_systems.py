@@ -80,7 +80,7 @@ def test_parameters_are_exact_and_shape_loops():
 
 
 def test_whole_numbers_that_are_annotated_as_float_are_real():
-    @pfaff.system(coordinates=["q", "p"], initial=[1, 0], invariants={"scaled": lambda q, k=1: k * q})
+    @pfaff.system(coordinates=["q", "p"], initial=[1, 0], invariants={"scaled": lambda q, k=1: k * q}, behaviours={"scaled": "free"})
     def spring(q, p, k: float = 1, huge: float = 10**17 + 1):
         return p**2 / 2 + k * q**2 / 2 + (huge - 10**17) * q
 
@@ -319,3 +319,14 @@ def test_text_models_and_compiled_formulas(tmp_path):
             compiled = henon_heiles(compile=True)
         # Compiled formulas have the operations of the tape in their order.
         assert np.array_equal(end(compiled, "verlet"), end(henon_heiles, "verlet"))
+
+
+def test_what_is_no_invariant_is_refused():
+    def spring(q, p):
+        return p**2 / 2 + q**2 / 2
+
+    false = {"coordinates": ["q", "p"], "initial": [1, 0.3], "invariants": {"product": lambda q, p: q * p}}
+    with pytest.raises(pfaff.InputError, match="spring: false at the initial state: product is conserved, and its behaviour not free"):
+        pfaff.run(pfaff.system(**false)(spring), "verlet", step=0.1, time=1)
+    run = pfaff.run(pfaff.system(**false, behaviours={"product": "free"})(spring), "verlet", step=0.1, time=1)
+    assert list(run.drift) == ["energy"] and run.invariants["product"][0] == 0.3

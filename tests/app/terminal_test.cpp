@@ -136,6 +136,15 @@ TEST(Terminal, ARunSaysWhatItDoesWithTheLastStep) {
   // Multiples of the step, also where doubles do not divide: 0.3 / 0.1 is below 3.
   EXPECT_EQ(run_pfaff(run + Arguments{"0.1", "--time", "0.3"}).err, "");
   EXPECT_EQ(run_pfaff(run + Arguments{"1/3", "--time", "1"}).err, "");
+  EXPECT_EQ(run_pfaff(run + Arguments{"0.031415926535897934", "--time", "3.141592653589793"}).err, "");
+  // The summary says it, too, and of many steps it is not lost that the last one ends beside the duration.
+  EXPECT_EQ(json_of(run_pfaff(run + Arguments{"0.3", "--time", "-1", "--json"}).out)["duration"],
+            "the run lasts -0.9, not -1: 3 whole steps of -0.3, and none is shortened");
+  EXPECT_FALSE(
+      json_of(run_pfaff(run + Arguments{"0.1", "--time", "0.3", "--json"}).out).contains("duration"));
+  EXPECT_EQ(run_pfaff(run + Arguments{"0.10000000005", "--time", "100"}).err,
+            "pfaff: the run lasts 100.00000005, not 100: 1000 whole steps of 0.10000000005, and none "
+            "is shortened\n");
 }
 
 TEST(Terminal, QuietLeavesResultsAndErrors) {

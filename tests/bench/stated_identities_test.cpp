@@ -2,9 +2,11 @@
 // follow one of them, and sound ones are not, whatever their size.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include <pfaff/bench/runner/stated_identities.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 #include "../temporary_directory.hpp"
 #include "../verify/judged.hpp"
@@ -88,12 +90,42 @@ TEST(StatedIdentities, KIsSkewAndRegular) {
             "system form: K is singular at the initial state; expected a regular matrix");
 }
 
-// Nothing that is registered is refused where it begins.
+TEST(StatedIdentities, WhatIsSaidToBeConservedIs) {
+  EXPECT_EQ(complaint_about(oscillator + "[invariants]\nsum = \"p^2/2 + 3.1415926*q^2/2 + q^4/4\"\n"), "");
+  EXPECT_EQ(complaint_about(oscillator + "[invariants]\nproduct = { of = \"q*p\", behaviour = \"free\" }\n"),
+            "");
+  const std::string said = complaint_about(oscillator + "[invariants]\nproduct = \"q*p\"\n");
+  EXPECT_NE(
+      said.find("false at the initial state: product is conserved, and its behaviour not free (off by "),
+      std::string::npos)
+      << said;
+  // At rest nothing moves, and in round-off nothing is seen.
+  const std::string at_rest = complaint_about(
+      "coordinates = [\"q\", \"p\"]\ninitial = [0, 0]\nkinetic = \"p^2/2\"\npotential = \"q^2/2\"\n"
+      "[invariants]\nposition = \"q\"\n");
+  EXPECT_NE(at_rest.find("false at a state near the initial one: position is conserved"), std::string::npos)
+      << at_rest;
+  // With damping the energy falls, which a model may say of it.
+  EXPECT_EQ(complaint_about("coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\nkinetic = \"p^2/2\"\n"
+                            "potential = \"q^2/2\"\ndamping = \"0.1\"\n"
+                            "[invariants]\nsum = { of = \"p^2/2 + q^2/2\", behaviour = \"decreasing\" }\n"),
+            "");
+}
+
+// Nothing that is registered or that ships as a text model is refused where it begins.
 TEST(StatedIdentities, OfEverySystemHold) {
   for (const SystemPlugin* plugin : systems().all()) {
     const auto model = plugin->make({});
     if (model->initial().empty() || plugin->name().starts_with("tiny-")) continue;
     EXPECT_NO_THROW(check_stated_identities(*model, Real(0), model->initial())) << plugin->name();
+  }
+  for (const auto& file : std::filesystem::directory_iterator(PFAFF_GOLDEN "/../../examples/models")) {
+    std::ifstream stream(file.path());
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    if (text.find("\ntensor = ") != std::string::npos) continue;  // a bracket, and no system
+    const auto model = system_named(file.path().string()).make({});
+    if (model->initial().empty()) continue;
+    EXPECT_NO_THROW(check_stated_identities(*model, Real(0), model->initial())) << file.path();
   }
 }
 
