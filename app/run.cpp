@@ -203,8 +203,8 @@ void refuse_to_replace(const KeptRun& kept, const std::string& out) {
 int run(const RunOptions& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
   const Measures measures = fitting_measures(options.measures, options.out, resolved);
-  if (const std::string duration = other_duration(resolved); !duration.empty() && !common.quiet)
-    std::cerr << "pfaff: " << duration << '\n';
+  for (const std::string& said : {other_duration(resolved), resolved.not_conserved})
+    if (!said.empty() && !common.quiet) std::cerr << "pfaff: " << said << '\n';
   if (options.out == "-") return run_to_standard_output(resolved, common);
   const std::filesystem::path directory = options.out;
   std::vector<std::string> ours = run_file_names();

@@ -171,6 +171,17 @@ std::string ended_references(const std::vector<ExperimentRun>& runs,
   return text;
 }
 
+// A line for each problem of which something is said to be conserved and is not.
+std::string false_invariants(const std::vector<ExperimentRun>& runs) {
+  std::map<ProblemKey, std::string> lines;
+  for (const ExperimentRun& run : runs)
+    if (!run.resolved.not_conserved.empty())
+      lines[problem_of(run)] = run.which->name + ": " + run.resolved.not_conserved + "\n";
+  std::string text;
+  for (const auto& [problem, line] : lines) text += line;
+  return text;
+}
+
 // Makes the run and leaves it in the directory; false where it was asked to stop before its end.
 bool made(const ExperimentRun& run, References& references, const fs::path& directory) try {
   return make_run(directory / "runs" / run.slug, run.resolved, references.of(run));
@@ -258,7 +269,7 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   outcome.failed_claims = failed_claims(findings);
   write_equal_cost(directory, experiment, runs, summaries, references, progress);
   outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings) +
-                  ended_references(runs, summaries) + notes;
+                  ended_references(runs, summaries) + false_invariants(runs) + notes;
   if (options.report) {
     report(ExperimentStage::phases, "figures and report", 0);
     outcome.report = make_report(directory);

@@ -96,7 +96,8 @@ struct ResolvedRun {
   std::vector<Real> absolute;      // absolute tolerances: none, or one for each coordinate
   std::int64_t steps = 0;          // fixed steps only
   std::int64_t every = 1;
-  Origins origins;  // the files and builds that it was made from
+  Origins origins;            // the files and builds that it was made from
+  std::string not_conserved;  // of what is said to be (stated_identities.hpp)
   [[nodiscard]] bool adaptive() const { return !settings.tolerance.empty(); }
   /// Of the series of a run with fixed steps, behind the first.
   [[nodiscard]] std::int64_t rows() const { return (steps + every - 1) / every; }

@@ -81,6 +81,7 @@ nlohmann::json summary(const ResolvedRun& run, const RunRecord& record) {
     j["steps"] = run.steps;
     if (const std::string other = other_duration(run); !other.empty()) j["duration"] = other;
   }
+  if (!run.not_conserved.empty()) j["not_conserved"] = run.not_conserved;
   j["completed"] = record.completed;
   j["status"] = record.interrupted ? "interrupted" : to_string(record.status);
   j["message"] = record.message;

@@ -15,7 +15,7 @@ from . import _machine  # noqa: F401  first: it refuses machines that lack instr
 from . import _pfaff
 from ._derivation import Equations, derivation_methods, derive
 from ._ensemble import Ensemble, ensemble
-from ._errors import InputError, Interrupted, JumpWarning, NotConverged, RunFailed, TraceError
+from ._errors import InputError, Interrupted, InvariantWarning, JumpWarning, NotConverged, RunFailed, TraceError
 from ._evaluation import Evaluation, bracket, evaluate
 from ._experiments import Comparison, Table, WorkPrecision, compare, experiments
 from ._falsification import Counterexample, Falsification, Falsifications, falsify
@@ -49,6 +49,7 @@ __all__ = [
     "InputError",
     "Integration",
     "Interrupted",
+    "InvariantWarning",
     "JumpWarning",
     "MeasureTable",
     "Method",

@@ -14,6 +14,10 @@ class JumpWarning(UserWarning):
     """A derivative was asked of a motion that may pass a jump of its rates, where the derivative of steps is not its own."""
 
 
+class InvariantWarning(UserWarning):
+    """A quantity that is said to be conserved has a rate along the motion: its drift is not the method's alone."""
+
+
 class NotConverged(RuntimeError):
     """A step did not converge, a linear system in it was singular, or no step meets the tolerance. `run` holds the samples up to
     there, or None."""

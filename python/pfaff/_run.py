@@ -6,6 +6,7 @@ import functools
 import html
 import pickle
 import re
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,7 @@ import numpy as np
 from . import _pfaff
 from ._arguments import real_array, unknown
 from ._asked_run import asked_run, listed_measures
-from ._errors import InputError, NotConverged, RunFailed
+from ._errors import InputError, InvariantWarning, NotConverged, RunFailed
 from ._integration import Integration, attach, with_parameters
 from ._measure_table import MeasureTable
 from ._naming import kebab
@@ -286,6 +287,9 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         NotConverged, RunFailed: a step failed.
         Interrupted: Ctrl-C was pressed.
 
+    Warns:
+        InvariantWarning: what is said to be conserved is not, at the initial state or near it.
+
     All but InputError have the Run with the samples so far as their attribute `run`.
     """
     base, tool = with_parameters(system, method, parameters, system_parameters, method_parameters)
@@ -297,6 +301,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         absolute=absolute, precision=precision, reference=reference, measures=wanted, structure=structure, project_initial=project_initial,
         allow_inconsistent=allow_inconsistent, formulation=formulation, out=out)
     going = _pfaff.RunInProgress(base.model, tool.instance, asked)
+    if going.not_conserved:
+        warnings.warn(going.not_conserved, InvariantWarning, stacklevel=2)
     try:
         going.execute()
     except InputError:

@@ -199,6 +199,9 @@ class RunInProgress {
     if (record_->interrupted && interruption.taken()) raise_interrupted(record_->message.c_str());
   }
 
+  // What is said to be conserved and is not, one line; or empty.
+  [[nodiscard]] const std::string& not_conserved() const { return run_.not_conserved; }
+
   // Drifts are classed when this is first asked for.
   [[nodiscard]] py::object summary_of_run() const {
     return record_ ? python_value(summary(run_, *record_)) : py::dict();
@@ -319,6 +322,7 @@ class RunInProgress {
 void bind_runs(py::module_& module) {
   py::class_<RunInProgress>(module, "RunInProgress", "A run, checked, with the samples that it has left.")
       .def(py::init<const PySystem&, const PyMethod&, const py::dict&>())
+      .def_property_readonly("not_conserved", &RunInProgress::not_conserved)
       .def("execute", &RunInProgress::execute)
       .def("samples", &RunInProgress::samples)
       .def("summary", &RunInProgress::summary_of_run);

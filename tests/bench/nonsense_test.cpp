@@ -206,13 +206,12 @@ TEST(Nonsense, AtRestTheErrorIsZero) {
   EXPECT_EQ(record.error_max, 0.0);
 }
 
-// A quantity that leaves the range of doubles in a run in quad. It rests as long as a run looks at what is
-// said to be conserved before it begins.
+// A quantity that leaves the range of doubles in a run in quad.
 struct Runaway {
   static constexpr int dimension = 2;
   template <class T>
-  void field(const T& t, In<T> z, Out<T> rate) const {
-    rate[0] = select(t - T(Real::fraction(1, 10)), z[0], T(0));
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[0];
     rate[1] = -z[1];
   }
   template <class T>
@@ -233,13 +232,13 @@ TEST(Nonsense, ADriftThatIsNotFiniteEndsTheRun) {
   s.precision = Precision::quad;
   const testing::RecordWithSamples record = executed(s);
   EXPECT_EQ(record.status, Status::non_finite);
-  expect_said(record.message, {"the drift of x is not finite", "at t = 710 "});
+  expect_said(record.message, {"the drift of x is not finite", "at t = 709."});
   EXPECT_TRUE(std::isfinite(record.invariants().drift[0].maximum));
   s.time = "700";
   EXPECT_EQ(executed(s).status, Status::converged);
 }
 
-// Errors whose squares cannot be summed are not left out of the maximum. x is e^(t - 0.1) from t = 0.1 on.
+// Errors whose squares cannot be summed are not left out of the maximum. x is e^t.
 TEST(Nonsense, TheMaximumIsThatOfAllErrors) {
   const testing::RecordWithSamples record = executed(settings_of("test-runaway", "0.1", "400"));
   EXPECT_EQ(record.status, Status::converged);
