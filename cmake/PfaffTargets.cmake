@@ -35,10 +35,13 @@ function(pfaff_target target)
 endfunction()
 
 # What runs once, prints or is a test is compiled in half the time with few optimisations; what is measured is not.
-# With so few of them GCC's 12th version takes parts of std::regex for uninitialised.
+# With so few of them GCC's 12th version takes parts of std::regex for uninitialised. PFAFF_COLD tells headers so, which
+# then leave out what is there for speed alone: inlining that they ask for (core/facets/compiled_series.hpp), and methods
+# for dimensions that the compiler knows (core/integrator.hpp).
 set(pfaff_cold_options "$<$<CONFIG:Release>:-Og;-Wno-maybe-uninitialized>")
 function(pfaff_cold_target target)
   target_compile_options(${target} PRIVATE ${pfaff_cold_options})
+  target_compile_definitions(${target} PRIVATE PFAFF_COLD)
 endfunction()
 
 # Those of the sources in which a line matches the pattern.

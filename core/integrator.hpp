@@ -236,7 +236,11 @@ class Instance final : public MakerInUnits<Instance<M>, MethodInstance> {
   [[nodiscard]] StepperPointer<T> made(std::shared_ptr<const Model> model) const {
     constexpr bool sizes = [] {
       if constexpr (requires { M::fixed_sizes; }) return M::fixed_sizes;
+#ifdef PFAFF_COLD  // compiled to be soon there (cmake/PfaffTargets.cmake)
+      return false;
+#else
       return true;
+#endif
     }();
     if constexpr (sizes && std::is_same_v<T, double>) {  // the sizes worth a copy of the code each
       if (model->dimension() == 2) return on<Problem<T, 2>>(std::move(model));

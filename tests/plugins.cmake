@@ -11,8 +11,9 @@ function(pfaff_test_plugin name)
   pfaff_cold_target(${name}_plugin)
 endfunction()
 
-# The same for plug-ins without flags and definitions of their own, after what nearly all of them include. The templates
-# are compiled after what they include themselves, as their copies are.
+# The same for plug-ins without flags of their own, after what nearly all of them include. Definitions of their own, which
+# the first has none of, are of names that these headers do not mention. The templates are compiled after what they
+# include themselves, as their copies are.
 function(pfaff_precompiled_plugin name)
   pfaff_test_plugin(${name} ${ARGN})
   if(pfaff_precompiled)
@@ -25,6 +26,8 @@ endfunction()
 
 file(GLOB templates CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/templates/*.cpp)
 pfaff_test_plugin(templates ${templates})
+# The copies are compiled for every dimension that methods are compiled for.
+set_property(TARGET templates_plugin PROPERTY COMPILE_DEFINITIONS "")
 
 # `fits` is the control that does load; `starts-fast` fits too, but links start-up code that flushes subnormals.
 set(witness app/plugins/witness.cpp)
@@ -68,11 +71,11 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")  # one of them sets the flags 
     add_dependencies(app_tests ${name}_plugin)
   endforeach()
 endif()
-pfaff_test_plugin(misnamed-system app/plugins/misnamed.cpp)
-target_compile_definitions(misnamed-system_plugin PRIVATE "NAME=\"My System\"" "PARAMETER=\"rate\"")
-pfaff_test_plugin(misnamed-parameter app/plugins/misnamed.cpp)
-target_compile_definitions(misnamed-parameter_plugin PRIVATE "NAME=\"well-named\"" "PARAMETER=\"rate=1\"")
 pfaff_precompiled_plugin(faulty app/plugins/faulty.cpp)
+pfaff_precompiled_plugin(misnamed-system app/plugins/misnamed.cpp)
+target_compile_definitions(misnamed-system_plugin PRIVATE "NAME=\"My System\"" "PARAMETER=\"rate\"")
+pfaff_precompiled_plugin(misnamed-parameter app/plugins/misnamed.cpp)
+target_compile_definitions(misnamed-parameter_plugin PRIVATE "NAME=\"well-named\"" "PARAMETER=\"rate=1\"")
 pfaff_precompiled_plugin(throws-late app/plugins/throws_late.cpp)
 add_dependencies(app_tests faulty_plugin throws-late_plugin starts-fast_plugin)
 
@@ -81,7 +84,7 @@ pfaff_precompiled_plugin(degenerate app/plugins/degenerate.cpp)
 
 # Two builds of one plug-in.
 foreach(stiffness 1 2)
-  pfaff_test_plugin(spring-${stiffness} app/plugins/spring.cpp)
+  pfaff_precompiled_plugin(spring-${stiffness} app/plugins/spring.cpp)
   target_compile_definitions(spring-${stiffness}_plugin PRIVATE SPRING_STIFFNESS=${stiffness})
 endforeach()
 add_dependencies(app_tests degenerate_plugin spring-1_plugin spring-2_plugin)

@@ -20,9 +20,10 @@
 #include <pfaff/core/tape/online_series.hpp>
 
 // Marks functions into which all their calls are inlined, so that the compiler knows every slot where it is
-// used. The address sanitizer adds code to every access of memory, with which this would take minutes to
-// compile; it does without.
-#ifdef __SANITIZE_ADDRESS__
+// used, which takes it seconds for each system. Code that is compiled to be soon there does without
+// (PFAFF_COLD, cmake/PfaffTargets.cmake), and so does the address sanitizer, which adds code to every access
+// of memory and with this would take minutes.
+#if defined(PFAFF_COLD) || defined(__SANITIZE_ADDRESS__)
 #define PFAFF_FLATTEN
 #else
 #define PFAFF_FLATTEN [[gnu::flatten]]

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <limits>
 #include <ostream>
+#include <string>
 
 #include <pfaff/core/numbers/rational.hpp>
 
@@ -30,8 +31,10 @@ class ModuloPrime {
       : residue_(value < 0 ? prime - static_cast<std::uint64_t>(-static_cast<std::int64_t>(value))
                            : static_cast<std::uint64_t>(value)) {}
   explicit ModuloPrime(const Rational& x) {
-    const auto& number = x.number();
-    *this = of_integer(numerator(number)) / of_integer(denominator(number));
+    const std::string text = to_string(x);
+    const std::size_t end = text.find('/');
+    *this = of_digits(text.substr(0, end));
+    if (end != std::string::npos) *this /= of_digits(text.substr(end + 1));
   }
 
   ModuloPrime& operator+=(const ModuloPrime& o) { return *this = *this + o; }
@@ -72,10 +75,11 @@ class ModuloPrime {
     x.residue_ = residue;
     return x;
   }
-  template <class Integer>
-  static ModuloPrime of_integer(const Integer& n) {
-    const Integer rest = n % Integer(prime);
-    return of(static_cast<std::uint64_t>(rest < 0 ? Integer(rest + prime) : rest));
+  static ModuloPrime of_digits(const std::string& integer) {
+    ModuloPrime x;
+    for (const char c : integer)
+      if (c != '-') x = x * 10 + (c - '0');
+    return integer.front() == '-' ? -x : x;
   }
   [[nodiscard]] std::int64_t representative() const {
     const auto residue = static_cast<std::int64_t>(residue_);

@@ -1,7 +1,6 @@
 // Replay: a tape evaluated with doubles, quads and duals gives the same as the formula it was recorded from.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -9,13 +8,16 @@
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../eigen/decompositions.hpp"
 #include "../formula_values.hpp"
 #include "random_formula.hpp"
 
 namespace {
 using namespace pfaff;
+using pfaff::testing::condition_of;
 using pfaff::testing::RandomFormula;
 using pfaff::testing::shared;
+using pfaff::testing::solved_by_eigen;
 using Arguments = std::span<const Recorded>;
 using Results = std::span<Recorded>;
 
@@ -151,9 +153,9 @@ TEST(Replay, SolvesLikeEigen) {
     Replay<D> directional(tape);
     plain(0, z.data(), x.data());
     directional(D(0), dual.data(), dx.data());
-    const Eigen::VectorXd expected = a.fullPivLu().solve(b);
-    const Eigen::VectorXd slope = a.fullPivLu().solve(db - da * expected);
-    const double condition = a.norm() * a.inverse().norm();
+    const Eigen::VectorXd expected = solved_by_eigen(a, b);
+    const Eigen::VectorXd slope = solved_by_eigen(a, db - da.lazyProduct(expected));
+    const double condition = condition_of(a);
     for (int i = 0; i < n; ++i) {
       const auto k = static_cast<std::size_t>(i);
       EXPECT_NEAR(x[k], expected(i), 4e-15 * condition * expected.norm());

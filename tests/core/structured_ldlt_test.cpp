@@ -2,14 +2,13 @@
 // quad, compared with Eigen, and the same for duals, recorded formulas and packs.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
-#include <Eigen/Sparse>
 #include <cmath>
 
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/numbers/rational.hpp>
 #include <pfaff/core/tape/replay.hpp>
 
+#include "../eigen/decompositions.hpp"
 #include "structured_samples.hpp"
 
 namespace {
@@ -111,26 +110,20 @@ TEST(StructuredLDLT, SolvesLikeEigensSimplicialFactorisation) {
     const SymmetricPattern& pattern = *sample.pattern;
     const auto rows = static_cast<int>(pattern.rows());
     const Entries e = Entries::positive(pattern, random);
-    std::vector<Eigen::Triplet<double>> triplets;
-    for (int i = 0; i < rows; ++i) triplets.emplace_back(i, i, e.diagonal[static_cast<std::size_t>(i)]);
+    Eigen::MatrixXd a = Eigen::MatrixXd::Zero(rows, rows);
+    for (int i = 0; i < rows; ++i) a(i, i) = e.diagonal[static_cast<std::size_t>(i)];
     for (std::size_t c = 0; c < e.lower.size(); ++c) {
       const auto i = static_cast<int>(pattern.couplings()[c].first),
                  j = static_cast<int>(pattern.couplings()[c].second);
-      triplets.emplace_back(j, i, e.lower[c]);
-      triplets.emplace_back(i, j, e.lower[c]);
+      a(i, j) = a(j, i) = e.lower[c];
     }
-    Eigen::SparseMatrix<double> a(rows, rows);
-    a.setFromTriplets(triplets.begin(), triplets.end());
-    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> oracle(a);
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(rows, -1, 2);
-    const Eigen::VectorXd expected = oracle.solve(b);
+    const Eigen::VectorXd expected = solved_by_simplicial_ldlt(a, b);
     StructuredLDLT<double> matrix(sample.pattern);
     e.fill(matrix);
     Eigen::VectorXd x(rows);
     ASSERT_EQ(matrix.factor_and_solve(b.data(), x.data()), Status::converged);
-    const Eigen::MatrixXd dense(a);
-    const double condition = dense.norm() * dense.inverse().norm();
-    EXPECT_LE((x - expected).norm(), 1e-15 * condition * expected.norm()) << sample.name;
+    EXPECT_LE((x - expected).norm(), 1e-15 * condition_of(a) * expected.norm()) << sample.name;
   }
 }
 

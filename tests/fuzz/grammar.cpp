@@ -10,9 +10,9 @@
 
 namespace pfaff::fuzz {
 
-namespace {
 std::string quoted(const std::string& text) { return '"' + text + '"'; }
 
+namespace {
 // Systems and methods whose models are made quickly.
 const std::vector<std::string>& small_systems() {
   static const std::vector<std::string> names = [] {

@@ -44,6 +44,8 @@ struct Input {
 /// A random input of the language.
 Input random_input(Language language, Choices& choices);
 
+/// The text between quotation marks.
+std::string quoted(const std::string& text);
 /// A number as the languages write it: mostly a small decimal, sometimes an odd one.
 std::string random_number(Choices& choices);
 /// name = value for some of the parameters of a registered system or integrator, in their ranges; empty where

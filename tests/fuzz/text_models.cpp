@@ -62,7 +62,6 @@ class Expressions {
   int depth_ = 0;
 };
 
-std::string quoted(const std::string& expression) { return '"' + expression + '"'; }
 std::string list(const std::string& first, const std::string& second) {
   return "[" + quoted(first) + ", " + quoted(second) + "]";
 }

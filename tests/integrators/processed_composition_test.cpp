@@ -1,13 +1,13 @@
 // Compositions with a processor: tables of the kind "composition" with a list `pre`.
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <array>
 
 #include <pfaff/integrators/order_conditions/word_conditions.hpp>
 #include <pfaff/integrators/tables/table_document.hpp>
 
+#include "../eigen/decompositions.hpp"
 #include "method_files.hpp"
 #include "processed_samples.hpp"
 
@@ -161,16 +161,14 @@ std::vector<Quad> solved_again(const Published& method) {
       slopes(static_cast<Eigen::Index>(c), static_cast<Eigen::Index>(j)) =
           static_cast<double>((up[c] - down[c]) / (Quad(2) * shift));
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> inverse;
-  inverse.setThreshold(1e-9);  // the smallest slope that is not round-off is 2e-8 of the largest
-  inverse.compute(slopes);
   for (int iteration = 0; iteration < 6; ++iteration) {  // each leaves 1e-7 of the defect at most
     Quad scale(0);
     for (const Quad& x : defect) scale = std::max(scale, abs(x));
     Eigen::VectorXd right(defect.size());
     for (std::size_t c = 0; c < defect.size(); ++c)
       right(static_cast<Eigen::Index>(c)) = static_cast<double>(defect[c] / scale);
-    const Eigen::VectorXd correction = inverse.solve(right);
+    // The smallest slope that is not round-off is 2e-8 of the largest.
+    const Eigen::VectorXd correction = pfaff::testing::shortest_solution(slopes, right, 1e-9);
     for (std::size_t j = 0; j < free.size(); ++j)
       numbers[free[j]] -= Quad(correction(static_cast<Eigen::Index>(j))) * scale;
     defect = residuals(numbers);
