@@ -177,17 +177,22 @@ std::string not_conserved(const Model& model, const Real& t, const std::vector<R
   const auto first = results_of(rates, t, z),
              second = results_of(rates, t + Real::fraction(1, 20), state_beside(z));
   std::string names;
+  int count = 0;
   double worst = 0;
   for (std::size_t k = 0; k < conserved.size(); ++k) {
     const double off = std::max(relative_to_terms({first[k]}), relative_to_terms({second[k]}));
     if (off <= most_off) continue;
-    names += (names.empty() ? "" : ", ") + model.invariants()[conserved[k]].name;
+    names += (count++ == 0 ? "" : ", ") + model.invariants()[conserved[k]].name;
     worst = std::max(worst, off);
   }
-  if (names.empty()) return {};
-  return "said to be conserved by system " + model.name() + ", and not by its motion: " + names +
-         " (the rate is " + formatted("%.2g", worst) +
-         " of its terms); its drift is not the method's alone; expected another behaviour";
+  if (count == 0) return {};
+  return "system " + model.name() + ": " + names +
+         (count == 1 ? " is said to be conserved, but the motion changes it (its rate is "
+                     : " are said to be conserved, but the motion changes them (a rate is ") +
+         formatted("%.2g", worst) +
+         " of its terms), so that the drift is not the method's alone; expected the behaviour free, "
+         "decreasing "
+         "or increasing";
 }
 
 }  // namespace pfaff

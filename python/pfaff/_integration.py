@@ -46,8 +46,8 @@ class Watching:
     [0.05, 0.1]
     """
 
-    def __init__(self, it: _pfaff.Integration, number: int) -> None:
-        self._it, self._number = it, number
+    def __init__(self, of: Integration, number: int) -> None:
+        self._of, self._number = of, number
 
     def remove(self) -> None:
         """The callback is not called from now on; nothing happens where it was removed before.
@@ -55,7 +55,10 @@ class Watching:
         It may be removed by itself, by another callback and by another thread while steps are taken. Since steps are taken
         many at a time, it may then have been called for steps behind those that another callback has seen.
         """
-        self._it.unwatch(self._number)
+        self._of._it.unwatch(self._number)
+
+    def __repr__(self) -> str:
+        return f"<callback of {self._of}>"
 
     def __enter__(self) -> Watching:
         return self
@@ -191,7 +194,7 @@ class Integration:
         raises ends it there too, and reaches who asked for the steps. Callbacks cannot step the integration, whose own time
         and state may be ahead of t and z by then: steps are taken many at a time.
         """
-        return Watching(self._it, self._it.watch(function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1)))
+        return Watching(self, self._it.watch(function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1)))
 
     def beside(self, state: Any) -> Integration:
         """The same method from another state, at the time reached and with the same step. It remembers nothing."""

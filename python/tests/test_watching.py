@@ -21,6 +21,7 @@ def test_a_callback_is_removed():
     with pytest.raises(LookupError), it.watch(lambda t, z: seen.append(t)):
         raise LookupError
     it.steps(1)
+    assert repr(again) == "<callback of <integration of duffing by verlet, step 0.5, at t = 3>>"
     assert isinstance(again, pfaff.Watching) and seen == [0.5, 1.0, 2.5] and others[-1] == 3.0
 
 

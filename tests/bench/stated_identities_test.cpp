@@ -103,7 +103,9 @@ TEST(StatedIdentities, WhatIsSaidToBeConservedIs) {
       said_of_invariants(oscillator + "[invariants]\nproduct = { of = \"q*p\", behaviour = \"free\" }\n"),
       "");
   const std::string said = said_of_invariants(oscillator + "[invariants]\nproduct = \"q*p\"\n");
-  EXPECT_NE(said.find("and not by its motion: product (the rate is "), std::string::npos) << said;
+  EXPECT_NE(said.find("product is said to be conserved, but the motion changes it (its rate is "),
+            std::string::npos)
+      << said;
   // At rest nothing moves, but beside it.
   EXPECT_NE(said_of_invariants("coordinates = [\"q\", \"p\"]\ninitial = [0, 0]\nkinetic = \"p^2/2\"\n"
                                "potential = \"q^2/2\"\n[invariants]\nposition = \"q\"\n"),
