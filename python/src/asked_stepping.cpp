@@ -36,7 +36,8 @@ AskedStepping asked_stepping(const PySystem& system, const PyMethod& method, con
     if (start.tolerance.quad() > 0 && start.tolerance.quad() < round_off)
       throw InputError("tolerance: " + tolerance + " is below round-off, which is " +
                        to_string(round_off, 3) + "; expected at least that");
-    check_tolerances(*start.method, *start.model, start.tolerance.quad(), {});  // where it is 0, too
+    check_tolerances(*start.method, *start.model, start.tolerance.quad(), {},
+                     {.got = ", got " + tolerance});  // where it is 0, too
   }
   start.absolute = numbers_of(texts("absolute"), "absolute");
   start.tolerance_forgets = text("scales") == "step";

@@ -299,12 +299,14 @@ def test_steps_that_a_method_chooses_are_counted():
     assert it.to(11).steps == it.steps_taken - outcome.steps > 0
 
 
-def test_a_tolerance_below_round_off_is_refused():
+def test_a_tolerance_out_of_its_range_is_refused():
     with pytest.raises(pfaff.InputError, match="^tolerance: 1e-16 is below round-off, which is 2.22e-16; expected at least that$"):
         pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance=1e-16)
     with pytest.raises(pfaff.InputError, match="^tolerance: 1e-40 is below round-off, which is 1.93e-34; expected at least that$"):
         pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance="1e-40", precision="quad")
     pfaff.Integration("harmonic-oscillator", "taylor", step=1, tolerance="1e-30", precision="quad").steps(1)
+    with pytest.raises(pfaff.InputError, match=r"^tolerance: expected a number in \(0, 1\], got 2$"):
+        pfaff.Integration("kepler", "taylor", tolerance=2)
 
 
 @pytest.mark.parametrize("length, gravity, step", [
