@@ -31,7 +31,9 @@ void Recorded::share() const noexcept {
 }
 void Recorded::release() const noexcept {
   auto* shared = static_cast<SharedConstant*>(target_);
-  if (shared->uses.fetch_sub(1, std::memory_order_acq_rel) == 1) delete shared;
+  // The analyser does not count atomic numbers.
+  if (shared->uses.fetch_sub(1, std::memory_order_acq_rel) == 1)
+    delete shared;  // NOLINT(clang-analyzer-cplusplus.NewDelete)
 }
 const Real& Recorded::shared_constant() const { return static_cast<const SharedConstant*>(target_)->value; }
 
