@@ -100,26 +100,26 @@ def draw(found, rows, wide, time_unit=""):
 def frames_of(shown, chosen, units):
     """The frame of each column, and whether each has its own."""
     columns = columns_of(shown, chosen)
-    own = [Frame([*(t[1:] for t in tracks), *exact], units) for tracks, exact in columns]
-    if any(max(of) > OWN * min(of) for of in zip(*(frame.span for frame in own))):
+    own = [Frame([*(t[1:] for t in tracks), *exact], units) for tracks, exact in columns if tracks or exact]
+    if len(own) == len(columns) and any(max(of) > OWN * min(of) for of in zip(*(frame.span for frame in own))):
         return own, True
     return [Frame(tracks_of(shown), units)] * len(columns), False
 
 
 def columns_of(shown, chosen):
-    """Of each column the tracks [(label, xs, ys)] of the methods, and those of the exact motion [(xs, ys)]."""
+    """Of each column the tracks [(label, xs, ys)] of the methods, and those of the exact motion [(xs, ys)], as far as they are numbers."""
     found = []
     for column in range(max(map(len, chosen))):
         stretches = [(row.label, one.stretches[numbers[column]]) for (row, one), numbers in zip(shown, chosen) if column < len(numbers)]
-        exact = [finite(*s[3:]) for _, s in stretches]
-        found.append(([(label, *finite(*s[1:3])) for label, s in stretches], [track for track in exact if len(track[0])]))
+        tracks, exact = ([(label, *finite(*s[1:3])) for label, s in stretches], [finite(*s[3:]) for _, s in stretches])
+        found.append(([track for track in tracks if len(track[1])], [track for track in exact if len(track[0])]))
     return found
 
 
 def power_of(frame):
-    """The power of ten in which numbers of a frame are short; 0 for one in which they need none."""
+    """The power of ten in which numbers of a frame are short; 0 for one in which they need none, or of numbers that no axis can show."""
     power = math.floor(math.log10(max(abs(x) for begin, size in zip(frame.begin, frame.span) for x in (begin, begin + size))))
-    return power if abs(power) > 2 else 0
+    return power if 2 < abs(power) < 300 else 0
 
 
 def in_multiples(power):

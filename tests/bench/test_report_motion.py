@@ -208,6 +208,24 @@ class Stretches(Fresh):
         self.assertIn("Axes are the same in the panels of a column, in multiples of the power of ten above it.", drawing.caption)
         self.assertIn("The track of lost leaves the frame of some columns.", drawing.caption)
 
+    def test_a_motion_may_die_away_to_numbers_that_no_axis_can_show(self):
+        drawing = self.drawing(lost=1.1, shrinks=1e-80)  # 1e-320 in the last column
+        axes = drawing.draw(True).axes
+        self.assertIn("axes in 10⁻²⁴⁰", axes[3].texts[0].get_text())
+        self.assertEqual(axes[4].texts[0].get_text(), "t = 80 to 86 s")
+        for one in axes:
+            self.assertTrue(all(len(text.get_text()) < 8 for text in one.get_xticklabels()))
+
+    def test_a_stretch_without_numbers_has_an_empty_panel(self):
+        folder = turning(self.folder, lost=1.1, shrinks=1e-3)
+        table = folder / "measures" / "motion.csv"
+        rows = load(table)
+        save(table, [row if row[1] != "small" or row[6] != "3" else [*row[:7], *["nan"] * 4] for row in rows])
+        shown = reading.Experiment(folder)
+        drawing = moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0]
+        self.assertEqual([len(line.get_xdata()) for line in drawing.draw(True).axes[7].lines], [0, 0])
+        self.assertIn("Axes are the same in the panels of a column", drawing.caption)
+
     def test_axes_are_the_same_where_the_motion_changes_little(self):
         drawing = self.drawing(lost=1.1, shrinks=0.9)
         self.assertEqual(len({(axes.get_xlim(), axes.get_ylim()) for axes in drawing.draw(True).axes}), 1)
