@@ -157,29 +157,33 @@ bool choose_steps(Experiment& experiment, std::vector<ExperimentRun>& runs, Refe
   return true;
 }
 
-// A line for each reference solution that ends before its runs.
-std::string ended_references(const std::vector<ExperimentRun>& runs,
-                             const std::vector<nlohmann::json>& summaries) {
+// A line for each problem of which something is said, by one of its runs.
+template <class Said>
+std::string line_of_each_problem(const std::vector<ExperimentRun>& runs, const Said& said) {
   std::map<ProblemKey, std::string> lines;
   for (std::size_t k = 0; k < runs.size(); ++k)
-    if (summaries[k].contains("reference_ended"))
-      lines[problem_of(runs[k])] = "reference of " + runs[k].which->name + ": " +
-                                   summaries[k]["reference_ended"].get<std::string>() +
-                                   "; errors are measured up to there\n";
+    if (const std::string text = said(k); !text.empty()) lines[problem_of(runs[k])] = text + "\n";
   std::string text;
   for (const auto& [problem, line] : lines) text += line;
   return text;
 }
 
-// A line for each problem of which something is said to be conserved and is not.
+// Of each reference solution that ends before its runs.
+std::string ended_references(const std::vector<ExperimentRun>& runs,
+                             const std::vector<nlohmann::json>& summaries) {
+  return line_of_each_problem(runs, [&](std::size_t k) -> std::string {
+    if (!summaries[k].contains("reference_ended")) return {};
+    return "reference of " + runs[k].which->name + ": " + summaries[k]["reference_ended"].get<std::string>() +
+           "; errors are measured up to there";
+  });
+}
+
+// Of what is said to be conserved and is not.
 std::string false_invariants(const std::vector<ExperimentRun>& runs) {
-  std::map<ProblemKey, std::string> lines;
-  for (const ExperimentRun& run : runs)
-    if (!run.resolved.not_conserved.empty())
-      lines[problem_of(run)] = run.which->name + ": " + run.resolved.not_conserved + "\n";
-  std::string text;
-  for (const auto& [problem, line] : lines) text += line;
-  return text;
+  return line_of_each_problem(runs, [&](std::size_t k) -> std::string {
+    const std::string& said = runs[k].resolved.not_conserved;
+    return said.empty() ? said : runs[k].which->name + ": " + said;
+  });
 }
 
 // Makes the run and leaves it in the directory; false where it was asked to stop before its end.

@@ -89,6 +89,25 @@ std::vector<Real> state_beside(const std::vector<Real>& z) {
   }
   return moved;
 }
+
+// What a run looks at before it begins: the results of a tape at a state, and at one beside it a little
+// later.
+struct NearStart {
+  std::vector<Rounded> here, beside;
+};
+NearStart near_start(const std::shared_ptr<const Tape>& tape, const Real& t, const std::vector<Real>& z) {
+  return {results_of(tape, t, z), results_of(tape, t + Real::fraction(1, 20), state_beside(z))};
+}
+
+// The invariants that are conserved at every state. With constraints they are where these hold, which a state
+// near the initial one is not.
+std::vector<std::size_t> conserved_everywhere(const Model& model) {
+  std::vector<std::size_t> conserved;
+  if (model.restricted() || !model.moves()) return conserved;
+  for (std::size_t k = 0; k < model.invariants().size(); ++k)
+    if (model.invariants()[k].behaviour == Behaviour::conserved) conserved.push_back(k);
+  return conserved;
+}
 }  // namespace
 
 std::shared_ptr<const Tape> symmetric_part(const Tape& tensor, int n) {
@@ -137,18 +156,6 @@ std::vector<StatedIdentity> written_formulas(const Model& model) {
   return all;
 }
 
-namespace {
-// The invariants that are conserved at every state. With constraints they are where these hold, which a state
-// near the initial one is not.
-std::vector<std::size_t> conserved_everywhere(const Model& model) {
-  std::vector<std::size_t> conserved;
-  if (model.restricted() || !model.moves()) return conserved;
-  for (std::size_t k = 0; k < model.invariants().size(); ++k)
-    if (model.invariants()[k].behaviour == Behaviour::conserved) conserved.push_back(k);
-  return conserved;
-}
-}  // namespace
-
 void check_stated_identities(const Model& model, const Real& t, const std::vector<Real>& z) {
   if (model.dimension() > most_coordinates) return;
   if (model.facets().has(Facet::structure)) {
@@ -157,11 +164,9 @@ void check_stated_identities(const Model& model, const Real& t, const std::vecto
       throw InputError("system " + model.name() +
                        ": K is singular at the initial state; expected a regular matrix");
   }
-  const std::vector<Real> beside = state_beside(z);
-  const Real later = t + Real::fraction(1, 20);
   for (const StatedIdentity& stated : identities_of(model)) {
-    const double first = relative_to_terms(results_of(stated.residual, t, z)),
-                 second = relative_to_terms(results_of(stated.residual, later, beside));
+    const NearStart residuals = near_start(stated.residual, t, z);
+    const double first = relative_to_terms(residuals.here), second = relative_to_terms(residuals.beside);
     if (std::max(first, second) <= most_off) continue;
     throw InputError("system " + model.name() + ": false " +
                      (first > most_off ? "at the initial state" : "at a state near the initial one") + ": " +
@@ -173,14 +178,12 @@ void check_stated_identities(const Model& model, const Real& t, const std::vecto
 std::string not_conserved(const Model& model, const Real& t, const std::vector<Real>& z) {
   const std::vector<std::size_t> conserved = conserved_everywhere(model);
   if (conserved.empty() || model.dimension() > most_coordinates) return {};
-  const auto rates = rates_of_invariants(model, conserved);
-  const auto first = results_of(rates, t, z),
-             second = results_of(rates, t + Real::fraction(1, 20), state_beside(z));
+  const NearStart rates = near_start(rates_of_invariants(model, conserved), t, z);
   std::string names;
   int count = 0;
   double worst = 0;
   for (std::size_t k = 0; k < conserved.size(); ++k) {
-    const double off = std::max(relative_to_terms({first[k]}), relative_to_terms({second[k]}));
+    const double off = std::max(relative_to_terms({rates.here[k]}), relative_to_terms({rates.beside[k]}));
     if (off <= most_off) continue;
     names += (count++ == 0 ? "" : ", ") + model.invariants()[conserved[k]].name;
     worst = std::max(worst, off);
@@ -190,9 +193,8 @@ std::string not_conserved(const Model& model, const Real& t, const std::vector<R
          (count == 1 ? " is said to be conserved, but the motion changes it (its rate is "
                      : " are said to be conserved, but the motion changes them (a rate is ") +
          formatted("%.2g", worst) +
-         " of its terms), so that the drift is not the method's alone; expected the behaviour free, "
-         "decreasing "
-         "or increasing";
+         " of its terms), so that the drift is not the method's alone; "
+         "expected the behaviour free, decreasing or increasing";
 }
 
 }  // namespace pfaff
