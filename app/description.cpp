@@ -319,7 +319,7 @@ std::vector<nlohmann::json> describe(const std::string& asked, const std::vector
   for (const auto& more : {names_of_plugins(), experiments, also_known})
     for (const std::string& one : more)
       if (std::find(names.begin(), names.end(), one) == names.end()) names.push_back(one);
-  throw InputError(unknown_name("name", name, names));
+  throw InputError(unknown_name("name", name, names) + what_is_left_out());
 }
 
 }  // namespace pfaff::app

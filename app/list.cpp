@@ -258,6 +258,8 @@ int list(const ListOptions& options, bool json) {
     if (!json) print(one, j[one]);
   }
   if (json) std::cout << json_text(j);
+  if (const std::string& left_out = plugins_left_out(); !left_out.empty())
+    std::cerr << "pfaff: not all is listed: " << left_out << '\n';
   return 0;
 }
 }  // namespace

@@ -1,10 +1,10 @@
 # Writes an ELF note with the build IDs of libraries, as assembler text: which builds another library is linked with
-# (bench/studies/studies.hpp).
-#   cmake -D NOTE=FILE -D FIRST=LIBRARY -D SECOND=LIBRARY -P PfaffBuilds.cmake
+# (core/registry/later_library.hpp).
+#   cmake -D NOTE=FILE -D FIRST=LIBRARY [-D SECOND=LIBRARY] -P PfaffBuilds.cmake
 set(text "linked with")
 foreach(library IN ITEMS ${FIRST} ${SECOND})
   # Where the linker puts it: the note's sizes and type, its owner, and the ID. Without one the file is named by its
-  # contents, as in bench/runner/loaded_objects.hpp.
+  # contents, as in core/process/loaded_objects.hpp.
   file(READ ${library} head LIMIT 8192 HEX)
   if(head MATCHES "^(.*)(04000000(..)00000003000000|00000004000000(..)00000003)474e5500(.*)$")
     math(EXPR digits "2 * 0x${CMAKE_MATCH_3}${CMAKE_MATCH_4}")

@@ -2,7 +2,7 @@
 # what a wheel holds.
 include(CMakePackageConfigHelpers)
 
-install(TARGETS pfaff pfaff_bench pfaff_studies EXPORT PfaffTargets
+install(TARGETS pfaff pfaff_plugins pfaff_bench pfaff_studies EXPORT PfaffTargets
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries NAMELINK_COMPONENT development)
 install(TARGETS pfaff_trial_load RUNTIME DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT libraries)  # beside the library, which starts it
 install(TARGETS pfaff_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})

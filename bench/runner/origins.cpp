@@ -5,17 +5,19 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <typeinfo>
 
 #include <pfaff/bench/runner/json.hpp>
 
 #include <pfaff/bench/runner/files.hpp>
-#include <pfaff/bench/runner/loaded_objects.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/core/native/compiler.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/process/checksum.hpp>
+#include <pfaff/core/process/loaded_objects.hpp>
+#include <pfaff/core/registry/shipped_plugins.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/measure.hpp>
@@ -40,7 +42,7 @@ const std::string* hash_of(const Assignments& list, const std::string& name) {
   return found == list.end() ? nullptr : &found->second;
 }
 
-// The paths of Pfaff's own libraries, found by an object that each of them holds.
+// The paths of Pfaff's own libraries that every run is made by, found by an object that each of them holds.
 const std::vector<std::string>& own_libraries() {
   static const int of_bench = 0;
   static const std::vector<std::string> paths{object_holding(&systems()).path,
@@ -103,13 +105,21 @@ void add_file(Origins& origins, const std::string& path, const std::string& hash
 void add_compiler(Origins& origins) { add(origins.libraries, "native", native::compiler_identity()); }
 
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
+  static const std::string shipped = shipped_plugins_path();
   for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);
-  if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) {
+  const auto* table = dynamic_cast<const MethodTable*>(&plugin);
+  if (table != nullptr) {
     for (const auto& [path, contents] : table->files()) add(origins.files, path, sha1_of(contents));
     for (const auto& [base, settings] : table->rests_on()) add_origins(*base, settings, origins);
-  } else if (const LoadedObject object = object_holding(&plugin); !is_own(object)) {
-    add(origins.plugins, object.path, object.build);
   }
+  // A table is made when its file is read, and stands in no object; its type does.
+  const void* held = &plugin;
+  if (table != nullptr) held = &typeid(*table);
+  const LoadedObject object = object_holding(held);
+  if (object.path == shipped)
+    add(origins.libraries, file_name(object.path), object.build);
+  else if (!is_own(object))
+    add(origins.plugins, object.path, object.build);
   for (const auto& [key, value] : values)
     if (const Parameter* p = parameter_of(plugin.parameters(), key);
         p != nullptr && p->kind == Parameter::Kind::plugin) {

@@ -206,6 +206,7 @@ AskedState asked_state(const RunSettings& settings, const SplitSettings& split) 
 // files as they were before the model was made of them.
 void note_origins(ResolvedRun& run, const SystemPlugin* system, const MethodPlugin* method,
                   const Assignments& read) {
+  run.origins.libraries = libraries();
   // A text model is made when its file is read and belongs to no shared object.
   if (const auto* text = dynamic_cast<const TextSystem*>(system)) {
     for (const auto& [path, contents] : text->files()) add_file(run.origins, path, sha1_of(contents));
@@ -221,7 +222,6 @@ void note_origins(ResolvedRun& run, const SystemPlugin* system, const MethodPlug
   if (!run.settings.formulation.empty())
     add_origins(formulations().get(run.settings.formulation, "formulation"),
                 run.model->source().formulation_parameters, run.origins);
-  run.origins.libraries = libraries();
   if (run.settings.compile && run.settings.precision == Precision::double_precision)
     add_compiler(run.origins);
 }

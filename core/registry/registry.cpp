@@ -25,6 +25,7 @@ std::vector<const RegistrationFaults*>& of_all_kinds() {
   return all;
 }
 std::vector<std::string> lines(const std::vector<std::string>& (RegistrationFaults::*of_a_kind)() const) {
+  load_shipped_plugins();
   std::vector<std::string> all;
   for (const RegistrationFaults* faults : of_all_kinds())
     all.insert(all.end(), (faults->*of_a_kind)().begin(), (faults->*of_a_kind)().end());
@@ -40,6 +41,7 @@ std::vector<std::string> misnamed() { return lines(&RegistrationFaults::misnamed
 
 void load_plugin(const std::string& path) {
   require_same_abi(path);
+  load_shipped_plugins();
   const std::string local = path.find('/') == std::string::npos ? "./" + path : path;
   if (const std::string reason = trial_load(local); !reason.empty())
     throw InputError("plug-in '" + path + "': " + reason);

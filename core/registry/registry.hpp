@@ -3,6 +3,9 @@
 // Registering never throws: a second plug-in of the same name, and one whose name or parameter cannot be
 // written on a command line, is kept aside and reported with its file. An alias, a plug-in under another name
 // and with some parameters set, is found by name and not listed.
+//
+// Whoever reads a registry finds what ships with Pfaff in it: the library of plug-ins is loaded before
+// (core/registry/shipped_plugins.hpp).
 #pragma once
 
 #include <algorithm>
@@ -11,6 +14,7 @@
 #include <vector>
 
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/registry/shipped_plugins.hpp>
 
 namespace pfaff {
 
@@ -57,25 +61,32 @@ class Registry final : public RegistrationFaults {
   void add_alias(const P* alias) { insert(alias, aliases_, plugins_); }
 
   /// Plug-ins in alphabetical order, without aliases.
-  [[nodiscard]] const std::vector<const P*>& all() const { return plugins_; }
+  [[nodiscard]] const std::vector<const P*>& all() const {
+    load_shipped_plugins();
+    return plugins_;
+  }
   /// Aliases in alphabetical order.
-  [[nodiscard]] const std::vector<const P*>& aliases() const { return aliases_; }
+  [[nodiscard]] const std::vector<const P*>& aliases() const {
+    load_shipped_plugins();
+    return aliases_;
+  }
 
   /// The plug-in or alias of that name; null where there is none.
   [[nodiscard]] const P* find(std::string_view name) const {
+    load_shipped_plugins();
     for (const auto* list : {&plugins_, &aliases_})
       if (const auto place = place_of(name, *list); has(name, *list, place)) return *place;
     return nullptr;
   }
   [[nodiscard]] std::vector<std::string> names() const {
     std::vector<std::string> result;
-    for (const P* plugin : plugins_) result.push_back(plugin->name());
+    for (const P* plugin : all()) result.push_back(plugin->name());
     return result;
   }
   /// The names of plug-ins and, after them, of aliases.
   [[nodiscard]] std::vector<std::string> names_and_aliases() const {
     std::vector<std::string> result = names();
-    for (const P* alias : aliases_) result.push_back(alias->name());
+    for (const P* alias : aliases()) result.push_back(alias->name());
     return result;
   }
   /// The plug-in of that name; InputError with the nearest name otherwise. `kind` is "system", "integrator"…
@@ -83,7 +94,8 @@ class Registry final : public RegistrationFaults {
     if (const P* plugin = find(name)) return *plugin;
     // An alias may be the nearest name; the list of what there is does without them.
     const std::string near = nearest(name, names_and_aliases());
-    throw InputError(unknown_name(kind, name, near.empty() ? names() : names_and_aliases()));
+    throw InputError(unknown_name(kind, name, near.empty() ? names() : names_and_aliases()) +
+                     what_is_left_out());
   }
 
  private:

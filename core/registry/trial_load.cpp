@@ -13,6 +13,7 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/process/child_program.hpp>
+#include <pfaff/core/registry/shipped_plugins.hpp>
 
 namespace pfaff {
 
@@ -51,6 +52,7 @@ std::string trial_program() {
 }  // namespace
 
 void load_on_trial(const char* path) {
+  load_shipped_plugins();
   report = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);

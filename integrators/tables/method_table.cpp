@@ -111,11 +111,12 @@ std::unique_ptr<const MethodTable> read_method_table(const std::string& path) {
   TableDocument document(text::absolute_path(path));
   const std::string kind = document.required_text("kind");
   std::vector<std::string> names;
+  load_shipped_plugins();
   for (const auto& [name, read] : readers()) {
     if (kind == name) return read(document, read_head(document, kind));
     names.push_back(name);
   }
-  document.refuse("kind", unknown_name("kind", kind, names));
+  document.refuse("kind", unknown_name("kind", kind, names) + what_is_left_out());
 }
 
 bool names_method_table(const std::string& path) {

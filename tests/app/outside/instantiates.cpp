@@ -103,7 +103,7 @@ void compare_methods(const std::string& scalar) {
   }
 }
 
-constexpr std::string_view library_name = "libpfaff.so";
+constexpr std::string_view library_name = "libpfaff";  // and libpfaff_plugins
 
 // The file in which the first virtual functions of an object stand. Every polymorphic object of the GNU C++
 // interface begins with the address of its table of virtual functions.

@@ -1,5 +1,5 @@
-// The library of studies: what needs none of it works without it, and one that is missing, damaged or of
-// another build is refused in one line before it is loaded.
+// The libraries of plug-ins and of studies: what needs none of them works without them, and one that is
+// missing, damaged or of another build is refused in one line before it is loaded.
 #include <link.h>
 
 #include <algorithm>
@@ -12,18 +12,17 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-// The program with its libraries in a directory of their own, which is all but a build tree: the program
-// finds the experiments of the source tree there.
-class Studies : public ::testing::Test {
+// The program with its libraries but one in a directory of their own, which is all but a build tree: the
+// program finds the experiments of the source tree there.
+class OneLibraryAway : public ::testing::Test {
  protected:
-  Studies() {
+  explicit OneLibraryAway(const std::string& stem) {
     const fs::path built = fs::path(PFAFF_PROGRAM).parent_path();
     for (const auto& entry : fs::directory_iterator(built)) {
       const std::string name = entry.path().filename().string();
       if (name == "pfaff" || name.starts_with("libpfaff"))
         fs::copy(entry.path(), files_.path() / name, fs::copy_options::copy_symlinks);
-      if (name.starts_with("libpfaff_studies.so.") && (name_.empty() || name.size() < name_.size()))
-        name_ = name;
+      if (name.starts_with(stem + ".so.") && (name_.empty() || name.size() < name_.size())) name_ = name;
     }
     library_ = files_.path() / name_;
     whole_ = text_of(library_);
@@ -42,12 +41,6 @@ class Studies : public ::testing::Test {
     fs::remove_all(library_);
     write(library_, bytes);
   }
-  // A file in its place is refused, in one line that names it.
-  void expect_refusal(const std::vector<std::string>& fragments, const std::string& what) const {
-    expect_complaint(run({"derive", "damped-pendulum", "--method", "birkhoffian"}), 2,
-                     std::vector<std::string>{"library of studies '" + library_.string() + "': "} + fragments,
-                     what);
-  }
   void say_that_it_is_a_build_tree(const fs::path& libraries) const {
     const std::string source = fs::path(PFAFF_GOLDEN).parent_path().parent_path().string();
     write(files_.path() / "CMakeCache.txt", "# cache\nCMAKE_HOME_DIRECTORY:INTERNAL=" + source +
@@ -61,6 +54,35 @@ class Studies : public ::testing::Test {
   TemporaryDirectory files_;
   std::string name_, whole_;
   fs::path library_;
+};
+
+class Studies : public OneLibraryAway {
+ protected:
+  Studies() : OneLibraryAway("libpfaff_studies") {}
+  // A file in its place is refused, in one line that names it.
+  void expect_refusal(const std::vector<std::string>& fragments, const std::string& what) const {
+    expect_complaint(
+        run({"derive", "damped-pendulum", "--method", "birkhoffian"}), 2,
+        std::vector<std::string>{"library of studies '" + library().string() + "': "} + fragments, what);
+  }
+};
+
+std::string example_table() {
+  return fs::path(PFAFF_GOLDEN).parent_path().parent_path() / "examples/tables/pefrl.toml";
+}
+
+class ShippedPlugins : public OneLibraryAway {
+ protected:
+  ShippedPlugins() : OneLibraryAway("libpfaff_plugins") {}
+  // What is there is listed, and one line says that it is not all.
+  void expect_not_all(const std::vector<std::string>& fragments, const std::string& what) const {
+    const Outcome outcome = run({"list", "--names", "systems"});
+    EXPECT_EQ(outcome.status, 0) << what;
+    EXPECT_EQ(outcome.out, "damped-oscillator\n") << what;
+    for (const std::string& fragment : fragments)
+      EXPECT_NE(outcome.err.find(fragment), std::string::npos) << what << ": " << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << what << ": " << outcome.err;
+  }
 };
 
 TEST_F(Studies, NamesAndHelpNeedNoLibrary) {
@@ -179,6 +201,73 @@ TEST_F(Studies, ARefusalNamesWhatMendsIt) {
   // A damaged file is newer than what it is made from, and a build would keep it.
   put("damaged");
   expect_refusal({"rm '" + fs::canonical(library()).string() + "'; " + build}, "damaged in a build tree");
+}
+
+TEST_F(ShippedPlugins, TheMainJobNeedsNoneOfThem) {
+  say_that_it_is_a_build_tree(directory());
+  const Outcome outcome =
+      run({"compare", "damped-oscillator", "--quick", "--no-report", "--timing", "0.001", "--out", "out"});
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_TRUE(fs::exists(directory() / "out/results.csv"));
+  // Its runs are the same with the library, which made nothing of them.
+  const Arguments kept{"run", "damped-oscillator", "gauss", "--step", "0.1", "--time", "1", "--out", "kept"};
+  EXPECT_EQ(run(kept).status, 0);
+  const std::string before = text_of(directory() / "kept/config.toml");
+  put(whole());
+  const Outcome again = run(kept);
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(text_of(directory() / "kept/config.toml"), before);
+  EXPECT_EQ(before.find("libpfaff_plugins"), std::string::npos);
+  // The control: what is made by the library names its build.
+  const Arguments pendulum{"run", "pendulum", "verlet", "--step", "0.1", "--time", "1", "--out", "pendulum"};
+  EXPECT_EQ(run(pendulum).status, 0);
+  EXPECT_NE(
+      text_of(directory() / "pendulum/config.toml").find("\"" + library().filename().string() + "\" = "),
+      std::string::npos);
+  // So do tables, whose methods are the library's.
+  EXPECT_EQ(
+      run({"run", "pendulum", example_table(), "--step", "0.1", "--time", "1", "--out", "table"}).status, 0);
+  EXPECT_NE(text_of(directory() / "table/config.toml").find("\"" + library().filename().string() + "\" = "),
+            std::string::npos);
+}
+
+TEST_F(ShippedPlugins, WhatNeedsThemSaysWhatMakesThem) {
+  say_that_it_is_a_build_tree(directory());
+  const std::string build = "cmake --build '" + directory().string() + "' --target pfaff_plugins";
+  const std::string name = "library of plug-ins '" + library().string() + "': is missing";
+  expect_not_all({"not all is listed", name, build}, "missing");
+  for (const Arguments& arguments :
+       {Arguments{"run", "kepler", "rk4", "--step", "0.1", "--time", "1", "--out", "-"},
+        Arguments{"run", "damped-oscillator", "verlet", "--step", "0.1", "--time", "1", "--out", "-"},
+        Arguments{"describe", "kepler-in-plane"}, Arguments{"evaluate", "kepler"},
+        Arguments{"compare", "kepler", "--quick", "--out", "out"}, Arguments{"verify"},
+        Arguments{"falsify", "rk4"}})
+    expect_complaint(run(arguments), 2, {name, build}, joined(arguments));
+  EXPECT_FALSE(fs::exists(directory() / "out"));
+  // A complaint about a file shows its line too.
+  const Outcome of_table =
+      run({"run", "damped-oscillator", example_table(), "--step", "0.1", "--time", "1", "--out", "-"});
+  EXPECT_EQ(of_table.status, 2);
+  for (const std::string& fragment : {std::string("unknown kind 'splitting'"), name, build})
+    EXPECT_NE(of_table.err.find(fragment), std::string::npos) << of_table.err;
+}
+
+TEST_F(ShippedPlugins, DamagedAndOtherOnesAreNotLoaded) {
+  const std::size_t end = end_of_segments(whole());
+  for (std::size_t size = sizeof(ElfW(Ehdr)); size < end; size += end / 5) {
+    put(whole().substr(0, size));
+    expect_not_all({"is cut off or damaged"}, "cut off at " + std::to_string(size));
+  }
+  put("no library\n");
+  expect_not_all({"is no shared object"}, "text");
+  std::string other = whole();
+  const std::size_t build = other.find("linked with ") + 12;
+  ASSERT_LT(build, other.size());
+  other[build] = other[build] == '0' ? '1' : '0';
+  put(other);
+  expect_not_all({"belongs to another build of Pfaff"}, "another build");
+  put(text_of(std::string(PFAFF_TEST_PLUGINS) + "/fits.so"));
+  expect_not_all({"does not say which build"}, "a plug-in");
 }
 
 }  // namespace

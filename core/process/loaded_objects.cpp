@@ -1,4 +1,4 @@
-#include <pfaff/bench/runner/loaded_objects.hpp>
+#include <pfaff/core/process/loaded_objects.hpp>
 
 #include <link.h>
 
@@ -9,8 +9,8 @@
 #include <functional>
 #include <stdexcept>
 
-#include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/process/checksum.hpp>
+#include <pfaff/core/process/input_file.hpp>
 
 namespace pfaff {
 
@@ -66,7 +66,7 @@ LoadedObject described(const dl_phdr_info& object) {
   // The program is the object without a name.
   std::error_code error;
   const std::string name = object.dlpi_name;
-  result.path = name.empty() ? program_path().string()
+  result.path = name.empty() ? std::filesystem::read_symlink("/proc/self/exe", error).string()
                              : std::filesystem::absolute(name, error).lexically_normal().string();
   for (int k = 0; k < object.dlpi_phnum && result.build.empty(); ++k)
     if (const auto& segment = object.dlpi_phdr[k]; segment.p_type == PT_NOTE)
