@@ -213,4 +213,8 @@ class Replay {
   bool timed_ = false;
 };
 
+// Compiled once, in core/tape/replay.cpp, as the build says for that source alone.
+extern template class Replay<double>;
+extern template class Replay<Quad>;
+
 }  // namespace pfaff
