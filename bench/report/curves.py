@@ -19,6 +19,7 @@ LOST = 0.5  # a relative error of this size says nothing any more: the phase is 
 GROWN = 1e5  # units of round-off to which a residual that is round-off at the coarsest step may grow at finer ones
 RESIDUAL_ABOVE = 1000  # units of round-off above which residuals show their power of the step
 REACHED = 1 + 1e-8  # an error that is a target but for its last digits reaches it
+SMALLER = 0.9  # times an error, below which another is smaller
 ZERO = 0.1  # units of round-off at which an error of zero stands, which has no place on a logarithmic axis
 STUDENT = {1: 12.706, 2: 4.303}  # 95 % two-sided quantiles, by degrees of freedom
 
@@ -245,10 +246,11 @@ def point(members, error, work):
 
 
 def front(some):
-    """The points that no other run beats in both cost and error, by rising cost."""
+    """The points that no other run beats in both cost and error, by rising cost. An error that is smaller by less than a tenth
+    is the same error for more cost, as the errors of two methods are whose roundings are what is left."""
     out = []
     for p in sorted((p for c in some for p in c.measured()), key=lambda p: (p.cost, p.error)):
-        if not out or p.error < out[-1].error:
+        if not out or p.error < SMALLER * out[-1].error:
             out.append(p)
     return out
 

@@ -1,9 +1,9 @@
 """Work and precision of a case: the error of every run against what it cost, a line for each method over its steps.
 
 At most LINES lines have the colour of their family and a name in the margin to which they are joined, and all of their runs are in
-the frame; the rest is grey and behind them. Shaded: the Pareto front, which is what no other run beats in both cost and error; the
-band in which the phase is lost; and the band in which round-off rules. The fan of slopes says how steep an order is where cost goes
-with 1/h.
+the frame; the rest is grey and behind them. Shaded: the Pareto front, which is what no other run beats in both cost and error, the
+latter by a tenth; the band in which the phase is lost; and the band in which round-off rules. The fan of slopes says how steep an
+order is where cost goes with 1/h.
 """
 import math
 
@@ -45,7 +45,7 @@ def drawing(verdict, work, some):
         else "",
         f"Errors are the largest{some_rows(case)}." if verdict.of_state and case.get("error_rows") else "",
         "Down and to the left is better: a point is a run, along a line the step becomes smaller.",
-        "Shaded in yellow: the Pareto front.",
+        "Shaded in yellow: the Pareto front, on which a run has an error smaller by a tenth or more than every cheaper one.",
         f"Band at the top: error of at least {LOST}, the phase is lost." if verdict.of_state and any(
             p.error >= LOST for c in some for p in c.points) else "",
         "Whiskers run from the fastest repetition to the median." if work == "time" else "",

@@ -75,6 +75,10 @@ class Times(unittest.TestCase):
         some = [curve([(1, 1, 1e-1), (0.5, 4, 1e-4)]), curve([(1, 2, 1e-3), (0.5, 3, 1e-2)])]
         self.assertEqual([(p.cost, p.error) for p in curves.front(some)], [(1, 1e-1), (2, 1e-3), (4, 1e-4)])
 
+    def test_front_does_not_follow_roundings(self):
+        some = [curve([(1, 1, 1e-9), (0.5, 2, 5.3e-12), (0.25, 4, 1.4e-12)]), curve([(1, 3, 5.25e-12), (0.5, 6, 1.3e-12)])]
+        self.assertEqual([(p.cost, p.error) for p in curves.front(some)], [(1, 1e-9), (2, 5.3e-12), (4, 1.4e-12)])
+
 
 class Orders(unittest.TestCase):
     def test_of_power_laws(self):
