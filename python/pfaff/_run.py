@@ -20,6 +20,7 @@ from ._integration import Integration, attach, with_parameters
 from ._measure_table import MeasureTable
 from ._naming import kebab
 from ._objects import as_system
+from ._plotted import label_of
 from ._sensitivity import sensitivity_of, warn_of_jumps
 from ._tables import data_frame, html_table, text_table
 from ._watched import Watched
@@ -188,7 +189,13 @@ class Run:
 
     def _rows(self) -> list[list[Any]]:
         watched = [*self.drift.items(), *self.constraint_drift.items()]
-        return [[name, *(one[field] for field in self._COLUMNS[1:])] for name, one in watched]
+        return [[label_of(name, self.units.get(name, "")), *(one[field] for field in self._FIELDS)] for name, one in watched]
+
+    @property
+    def _columns(self) -> list[str]:
+        """Heads: the quantity stands with its unit, in which its largest error is; slopes are that by the unit of time."""
+        time = self.units.get("t", "")
+        return ["quantity", *(f"{field} per {time}" if time and field.startswith("slope") else field for field in self._FIELDS)]
 
     def _head(self) -> str:
         span = f"t = {self.t[0]:g} .. {self.t[-1]:g}, {len(self.t)} samples" if len(self.t) else "no samples"
@@ -198,15 +205,15 @@ class Run:
         ended = self.message or self.summary.get("duration", "")
         return f"run of {self.system.name} by {self.method.name}: {span}{error}{f'; {ended}' if ended else ''}"
 
-    _COLUMNS = ("quantity", "class", "max", "slope", "slope_low", "slope_high")
+    _FIELDS = ("class", "max", "slope", "slope_low", "slope_high")
 
     def __repr__(self) -> str:
         rows = self._rows()
-        return self._head() + ("\n" + text_table(self._COLUMNS, rows) if rows else "")
+        return self._head() + ("\n" + text_table(self._columns, rows) if rows else "")
 
     def _repr_html_(self) -> str:
         rows = self._rows()
-        table = html_table(self._COLUMNS, rows) if rows else ""
+        table = html_table(self._columns, rows) if rows else ""
         return f"<p>{html.escape(self._head())}</p>{table}{self._picture()}"
 
     def _picture(self) -> str:

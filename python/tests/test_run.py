@@ -33,6 +33,15 @@ def test_drift_tells_kept_energies_from_lost_ones():
         energy["slop"]
 
 
+def test_the_table_of_drift_has_units():
+    damped = pfaff.run("damped-oscillator", "rk4", step=0.1, time=10)
+    head, row = (line.split("  ") for line in repr(damped).splitlines()[1:])
+    assert [name.strip() for name in head if name] == ["quantity", "class", "max", "slope per s", "slope_low per s", "slope_high per s"]
+    assert row[0] == "birkhoffian [m^2/s^2]" and "<th>slope per s</th>" in damped._repr_html_()
+    pure = repr(pfaff.run("henon-heiles", "rk4", step=0.1, time=10))
+    assert "[" not in pure and " per " not in pure
+
+
 def test_errors_are_measured_against_what_is_known():
     result = pfaff.run("kepler", "gauss", stages=3, eccentricity=0.3, step=0.05, time=20)
     q, error = result["q"], result.error
