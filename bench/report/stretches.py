@@ -18,7 +18,7 @@ OWN = 4  # by this factor the motion is smaller in one column than in another wh
 
 
 class Followed:
-    """The stretches of one method: {number: (times, xs, ys, exact xs, exact ys)}."""
+    """The stretches of one method: {number: (times, xs, ys, exact xs, exact ys)}. The exact motion has more points, those between."""
 
     def __init__(self):
         self.step, self.axes, self.stretches = math.nan, ("", ""), {}
@@ -26,8 +26,10 @@ class Followed:
     def add(self, cells):
         self.step, self.axes = cells["step"], (cells["x axis"], cells["y axis"])
         stretch = self.stretches.setdefault(int(cells["stretch"]), ([], [], [], [], []))
-        for values, name in zip(stretch, ("t", "x", "y", "exact_x", "exact_y")):
+        for values, name in zip(stretch, ("t", "x", "y")):
             values.append(cells[name])
+        for values, name in zip(stretch[3:], ("exact_x", "exact_y")):
+            values += cells[f"{name}_between"], cells[name]
 
 
 def followed(verdict):
@@ -157,7 +159,7 @@ def told(verdict, found, rows):
         f"Every step of the run from its start{', ' + spans.pop() if len(spans) == 1 else ''}.",
         "Points are the steps.",
         f"At {step_text(steps.pop(), verdict.case)}." if len(steps) == 1 else "At the largest step at which each method finishes.",
-        "Behind, in grey, the exact motion at the same times." if exact else "",
+        "Behind, in grey, the exact motion at the same times and between them." if exact else "",
         "Axes are the same in the panels of a column, in multiples of the power of ten above it." if own else
         "Axes are the same in all panels." if several or len(shown) > 1 else "",
         leaving([row.label for row, _ in shown if row.label in astray], " of some columns") if own else

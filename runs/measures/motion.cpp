@@ -32,7 +32,9 @@ struct MotionOfRun {
             {.name = "x", .digits = 8},
             {.name = "y", .digits = 8},
             {.name = "exact_x", .digits = 8},
-            {.name = "exact_y", .digits = 8}};
+            {.name = "exact_y", .digits = 8},
+            {.name = "exact_x_between", .digits = 8},
+            {.name = "exact_y_between", .digits = 8}};
   }
   [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& /*method*/) const {
     if (model.dimension() < 2)
@@ -69,17 +71,23 @@ struct MotionOfRun {
   };
   template <class T>
   bool look(const Measured<T>& run, const RunState<T>& at, Work<T>& work, Row& row) const {
-    if (at.step != work.before + 1 || work.stretch == 0) ++work.stretch;
+    const bool begins = at.step != work.before + 1 || work.stretch == 0;
+    if (begins) ++work.stretch;
     work.before = at.step;
     const auto [first, second] = work.plane;
     const std::vector<Coordinate>& all = run.start.model()->coordinates();
     row = {with_unit(all[first].name, all[first].unit), with_unit(all[second].name, all[second].unit),
            double(work.stretch), at.z[first], at.z[second]};
-    const Quad t = Quad(run.start.time()) + Quad(static_cast<double>(at.step)) * Quad(run.start.step());
     row.resize(columns(*run.start.model()).size(), std::numeric_limits<double>::quiet_NaN());
-    if (work.solution == nullptr || !work.solution->covers(t)) return true;
-    const std::vector<Quad> solved = work.solution->at(t);
-    row[5] = static_cast<T>(solved[first]), row[6] = static_cast<T>(solved[second]);
+    const auto put_exact = [&](std::size_t column, double steps) {
+      const Quad t = Quad(run.start.time()) + Quad(steps) * Quad(run.start.step());
+      if (work.solution == nullptr || !work.solution->covers(t)) return;
+      const std::vector<Quad> solved = work.solution->at(t);
+      row[column] = static_cast<T>(solved[first]), row[column + 1] = static_cast<T>(solved[second]);
+    };
+    const auto steps = static_cast<double>(at.step);
+    if (!begins) put_exact(7, steps - 0.5);
+    put_exact(5, steps);
     return true;
   }
 
@@ -102,7 +110,7 @@ struct MotionOfRun {
   }
 
  private:
-  static constexpr std::int64_t fewest = 20;
+  static constexpr std::int64_t fewest = 12;
 
   // The number of steps in which the track in the plane has turned once, either way: that of the exact
   // motion, so that the stretches of all methods are alike, or else of the run itself.
@@ -143,10 +151,9 @@ const Measure<MotionOfRun> registered{
      .title = "What the motion looks like early and late, beside the exact one",
      .description =
          "Every step of some stretches of the run, from its start to its end, in the plane of two "
-         "coordinates, "
-         "and the solution at the same times. The first stretch ends where the track has turned once; all "
-         "have "
-         "as many steps. The solution is the exact one where the system has it, otherwise a Taylor series in "
-         "quad; its cells are empty where that ends.",
+         "coordinates, and the solution at the same times and half a step before. The first stretch ends "
+         "where the track has turned once; all have as many steps. The solution is the exact one where the "
+         "system has it, otherwise a Taylor series in quad; its cells are empty where that ends.",
+     .version = 2,
      .usual = true}};
 }  // namespace

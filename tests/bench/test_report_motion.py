@@ -130,7 +130,7 @@ def turning(folder, stretches=5, lost=1e3, more=0, late=None, shrinks=1.0):
     """`circles` with stretches of twelve steps: `round` on the exact unit circle, `small` on one of half its size, `lost` far away. `late`
     has by how much later the stretches of a method begin. From one stretch to the next the motion `shrinks`, but not that of `lost`."""
     circles(folder, more=more)
-    rows = [["case", "method", "step", "t", "x axis", "y axis", "stretch", "x", "y", "exact_x", "exact_y"]]
+    rows = [["case", "method", "step", "t", "x axis", "y axis", "stretch", "x", "y", "exact_x", "exact_y", "exact_x_between", "exact_y_between"]]
     for label, size in (("round", 1.0), ("small", 0.5), ("lost", lost), *((f"more {k}", 1.0) for k in range(more))):
         for stretch in range(1, (stretches[label] if isinstance(stretches, dict) else stretches) + 1):
             for k in range(13):
@@ -138,7 +138,8 @@ def turning(folder, stretches=5, lost=1e3, more=0, late=None, shrinks=1.0):
                 exact = shrinks ** (stretch - 1)
                 own = size * (1 if label == "lost" else exact)
                 cells = [own * math.cos(t), own * math.sin(t), exact * math.cos(t), exact * math.sin(t)]
-                rows.append(["ball", label, "0.5", repr(t), "x [m]", "y [m]", str(stretch), *map(repr, cells)])
+                between = [exact * math.cos(t - 0.25), exact * math.sin(t - 0.25)] if k > 0 else [math.nan] * 2
+                rows.append(["ball", label, "0.5", repr(t), "x [m]", "y [m]", str(stretch), *map(repr, cells + between)])
     measured(folder, "motion", rows, texts=("x axis", "y axis"))
     return folder
 
@@ -157,7 +158,10 @@ class Stretches(Fresh):
             for n, (x, y) in enumerate(zip(*line.get_data())):
                 self.assertAlmostEqual(x, size * math.cos(begin + n / 2))
                 self.assertAlmostEqual(y, size * math.sin(begin + n / 2))
-            self.assertAlmostEqual(exact.get_xdata()[3], math.cos(begin + 1.5))
+            self.assertEqual(len(exact.get_xdata()), 25)  # two for each step
+            for n, (x, y) in enumerate(zip(*exact.get_data())):
+                self.assertAlmostEqual(x, math.cos(begin + n / 4))
+                self.assertAlmostEqual(y, math.sin(begin + n / 4))
         self.assertEqual([axes.get_title(loc="left") for axes in canvas.axes if axes.get_title(loc="left")], ["round", "small", "lost"])
         self.assertEqual([text.get_text() for text in canvas.axes[1].texts], ["t = 20 to 26 s"])
         self.assertEqual(len({(axes.get_xlim(), axes.get_ylim()) for axes in canvas.axes}), 1)
@@ -220,7 +224,7 @@ class Stretches(Fresh):
         folder = turning(self.folder, lost=1.1, shrinks=1e-3)
         table = folder / "measures" / "motion.csv"
         rows = load(table)
-        save(table, [row if row[1] != "small" or row[6] != "3" else [*row[:7], *["nan"] * 4] for row in rows])
+        save(table, [row if row[1] != "small" or row[6] != "3" else [*row[:7], *["nan"] * 6] for row in rows])
         shown = reading.Experiment(folder)
         drawing = moving.drawings(verdict.Verdict(shown, shown.cases[0]))[0]
         self.assertEqual([len(line.get_xdata()) for line in drawing.draw(True).axes[7].lines], [0, 0])

@@ -15,7 +15,7 @@ namespace {
 using namespace pfaff;
 using namespace pfaff::testing;
 
-enum Cell : std::size_t { stretch = 2, x, y, exact_x, exact_y };
+enum Cell : std::size_t { stretch = 2, x, y, exact_x, exact_y, between_x, between_y };
 
 // A step of the implicit midpoint rule turns the oscillator, from (1, 0), by 2 atan(h/2).
 TEST(MotionMeasure, HasEveryStepOfItsStretchesBesideTheExactMotion) {
@@ -30,6 +30,12 @@ TEST(MotionMeasure, HasEveryStepOfItsStretchesBesideTheExactMotion) {
     EXPECT_NEAR(number(line, y), -std::sin(angle), 1e-12);
     EXPECT_NEAR(number(line, exact_x), std::cos(n * h), 1e-13);
     EXPECT_NEAR(number(line, exact_y), -std::sin(n * h), 1e-13);
+    const std::vector<std::int64_t>& before = steps[static_cast<int>(number(line, stretch))];
+    EXPECT_EQ(std::isnan(number(line, between_x)), before.empty()) << "at the first step of a stretch alone";
+    if (!before.empty()) {
+      EXPECT_NEAR(number(line, between_x), std::cos((n - 0.5) * h), 1e-13);
+      EXPECT_NEAR(number(line, between_y), -std::sin((n - 0.5) * h), 1e-13);
+    }
     EXPECT_EQ(std::get<std::string>(line.cells[0]), "q [m]");
     EXPECT_EQ(std::get<std::string>(line.cells[1]), "p [m/s]");
     steps[static_cast<int>(number(line, stretch))].push_back(line.step);
@@ -56,6 +62,16 @@ TEST(MotionMeasure, HasTheSameStepsForAllMethods) {
   EXPECT_EQ(found.size(), 1U);
 }
 
+// Sixteen steps to 2 pi, and one more; with fewer than twelve a turn a stretch is longer than one.
+TEST(MotionMeasure, HasOneTurnOfLongStepsToo) {
+  for (const auto& [step, expected] : {std::pair("0.4", 17), {"0.8", 12}}) {
+    std::map<int, int> rows;
+    for (const auto& line : table_of("motion", to_measure("harmonic-oscillator", "rk4", step, {}, 100)).lines)
+      ++rows[static_cast<int>(number(line, stretch))];
+    for (const auto& [k, count] : rows) EXPECT_EQ(count, expected + 1) << step << ", stretch " << k;
+  }
+}
+
 // A run of less than two turns is one stretch.
 TEST(MotionMeasure, ShowsAShortRunWhole) {
   const MeasuredTable table = table_of("motion", to_measure("harmonic-oscillator", "rk4", "0.1", {}, 10));
@@ -70,7 +86,7 @@ TEST(MotionMeasure, LeavesTheExactMotionEmptyWhereItIsNotAskedForOrEnds) {
   EXPECT_EQ(table.ended, "");
   for (const auto& line : table.lines) {
     EXPECT_TRUE(std::isfinite(number(line, x)));
-    EXPECT_TRUE(std::isnan(number(line, exact_x)));
+    EXPECT_TRUE(std::isnan(number(line, exact_x)) && std::isnan(number(line, between_x)));
   }
 }
 
