@@ -48,6 +48,10 @@ CLI::Validator existing_directory();
 /// (`| head`), with a RunError otherwise.
 void require_written_output();
 
+/// Says on the standard error output, in a line, that systems and methods are not listed because their
+/// library is missing; nothing where it is there.
+void say_what_is_left_out();
+
 /// The settings in texts "key=value". InputError for a text without '='.
 Assignments parse_settings(const std::vector<std::string>& texts);
 

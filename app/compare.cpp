@@ -13,6 +13,8 @@
 #include <pfaff/bench/runner/interruption.hpp>
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/bench/studies/studies.hpp>
+#include <pfaff/integrators/tables/method_table.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff::app {
 
@@ -55,6 +57,12 @@ std::string verdict_text(const nlohmann::json& cases) {
   return text.empty() ? text : "\n" + text;
 }
 
+// InputError for the first system or method that is not there.
+void require_names(const Experiment& experiment) {
+  for (const ExperimentCase& one : experiment.cases) (void)system_named(one.system);
+  for (const ExperimentMethod& one : experiment.methods) (void)integrator_named(one.integrator);
+}
+
 int compare(const CompareOptions& options, const Common& common) {
   const std::unique_ptr<Team> team = launched_team();
   const std::vector<std::string> names = options.all ? experiment_names() : options.names;
@@ -75,7 +83,9 @@ int compare(const CompareOptions& options, const Common& common) {
   for (const std::string& name : names) {
     experiments.push_back(read_experiment(name, options.quick));
     for (const std::string& plugin : common.plugins) experiments.back().asked_for += " --plugin " + plugin;
-    if (experiments.back().derivation) (void)studies();  // whether it is there is seen before anything is run
+    // What is missing is seen before anything is run.
+    if (experiments.back().derivation) (void)studies();
+    if (!plugins_left_out().empty()) require_names(experiments.back());
   }
   for (Experiment& experiment : experiments) {
     experiment.compile = experiment.compile || options.compile;

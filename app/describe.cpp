@@ -91,6 +91,7 @@ void add_describe(CLI::App& app, Common& common, Action& action) {
           print(found[k]);
         }
       }
+      say_what_is_left_out();
       return 0;
     };
   });

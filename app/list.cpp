@@ -240,6 +240,7 @@ int list(const ListOptions& options, bool json) {
   if (!kind.empty() && std::find(known.begin(), known.end(), kind) == known.end())
     throw InputError(unknown_name("kind", kind, known));
   if (options.markdown) {
+    if (const std::string& left_out = plugins_left_out(); !left_out.empty()) throw InputError(left_out);
     if (kind.empty()) return plugins_in_markdown();
     if (kind == "integrators") return methods_in_markdown();
     throw InputError("--markdown: expected no kind, or integrators, got '" + kind + "'");
@@ -258,8 +259,7 @@ int list(const ListOptions& options, bool json) {
     if (!json) print(one, j[one]);
   }
   if (json) std::cout << json_text(j);
-  if (const std::string& left_out = plugins_left_out(); !left_out.empty())
-    std::cerr << "pfaff: not all is listed: " << left_out << '\n';
+  if (kind.empty() || kind == "systems" || kind == "integrators") say_what_is_left_out();
   return 0;
 }
 }  // namespace

@@ -66,6 +66,11 @@ CLI::Validator existing_directory() {
           ""};
 }
 
+void say_what_is_left_out() {
+  if (const std::string& left_out = plugins_left_out(); !left_out.empty())
+    std::cerr << printable("pfaff: not all systems and methods are shown: " + left_out) << '\n';
+}
+
 void require_written_output() {
   std::cout.flush();
   if (std::cout) return;

@@ -21,6 +21,7 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/measure.hpp>
+#include <pfaff/systems/text/text_system.hpp>
 
 namespace pfaff {
 
@@ -51,6 +52,18 @@ const std::vector<std::string>& own_libraries() {
 }
 bool is_own(const LoadedObject& object) {
   return std::find(own_libraries().begin(), own_libraries().end(), object.path) != own_libraries().end();
+}
+
+bool is_shipped(const LoadedObject& object) {
+  static const std::string shipped = shipped_plugins_path();
+  return object.path == shipped;
+}
+
+// The object whose code a plug-in is. One that was made when its file was read stands in none; its type does.
+LoadedObject object_of(const Plugin& plugin) {
+  const bool of_file = dynamic_cast<const MethodTable*>(&plugin) != nullptr ||
+                       dynamic_cast<const TextSystem*>(&plugin) != nullptr;
+  return of_file ? object_holding(&typeid(plugin)) : object_holding(&plugin);
 }
 
 const Plugin* plugin_of(const std::string& kind, const std::string& name) {
@@ -105,18 +118,13 @@ void add_file(Origins& origins, const std::string& path, const std::string& hash
 void add_compiler(Origins& origins) { add(origins.libraries, "native", native::compiler_identity()); }
 
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins) {
-  static const std::string shipped = shipped_plugins_path();
   for (const auto& [path, hash] : files_of(plugin.parameters(), values)) add(origins.files, path, hash);
-  const auto* table = dynamic_cast<const MethodTable*>(&plugin);
-  if (table != nullptr) {
+  if (const auto* table = dynamic_cast<const MethodTable*>(&plugin)) {
     for (const auto& [path, contents] : table->files()) add(origins.files, path, sha1_of(contents));
     for (const auto& [base, settings] : table->rests_on()) add_origins(*base, settings, origins);
   }
-  // A table is made when its file is read, and stands in no object; its type does.
-  const void* held = &plugin;
-  if (table != nullptr) held = &typeid(*table);
-  const LoadedObject object = object_holding(held);
-  if (object.path == shipped)
+  const LoadedObject object = object_of(plugin);
+  if (is_shipped(object))
     add(origins.libraries, file_name(object.path), object.build);
   else if (!is_own(object))
     add(origins.plugins, object.path, object.build);
@@ -127,6 +135,12 @@ void add_origins(const Plugin& plugin, const Assignments& values, Origins& origi
       if (const Plugin* chosen = plugin_of(p->plugins.kind, inner.name))
         add_origins(*chosen, inner.settings, origins);
     }
+}
+
+void add_library_of(const Plugin* namesake, Origins& origins) {
+  if (namesake == nullptr) return;
+  if (const LoadedObject object = object_of(*namesake); is_shipped(object))
+    add(origins.libraries, file_name(object.path), object.build);
 }
 
 namespace {

@@ -38,6 +38,10 @@ void add_compiler(Origins& origins);
 /// and not added.
 void add_origins(const Plugin& plugin, const Assignments& values, Origins& origins);
 
+/// Adds the library of plug-ins, where a plug-in of it has the name of what was made in a program, whose code
+/// may then be the library's; null is none.
+void add_library_of(const Plugin* namesake, Origins& origins);
+
 /// The libraries that compute every run: Pfaff's own, libm, with its values at fixed points, and libquadmath.
 const Assignments& libraries();
 

@@ -202,8 +202,8 @@ AskedState asked_state(const RunSettings& settings, const SplitSettings& split) 
   return {either(settings.initial, split.initial, "initial"),
           either(settings.initial_velocities, split.initial_velocities, "initial_velocities")};
 }
-// Fills in run.origins, of plug-ins that are null for what was made in a program nothing. `read` are the
-// files as they were before the model was made of them.
+// Fills in run.origins. Plug-ins are null for what was made in a program, of which only what ships is known
+// by its name. `read` are the files as they were before the model was made of them.
 void note_origins(ResolvedRun& run, const SystemPlugin* system, const MethodPlugin* method,
                   const Assignments& read) {
   run.origins.libraries = libraries();
@@ -213,12 +213,17 @@ void note_origins(ResolvedRun& run, const SystemPlugin* system, const MethodPlug
     for (const auto& [plugin, values] : text->rests_on()) add_origins(*plugin, values, run.origins);
   } else if (system != nullptr) {
     add_origins(*system, run.model->parameters(), run.origins);
+  } else {
+    add_library_of(systems().find(run.model->name()), run.origins);
   }
   for (const auto& [path, hash] : read)
     if (std::find(run.origins.files.begin(), run.origins.files.end(), std::pair(path, hash)) ==
         run.origins.files.end())
       throw InputError(path + ": changed while it was read; expected a file that stays as it is");
-  if (method != nullptr) add_origins(*method, run.method->parameters(), run.origins);
+  if (method != nullptr)
+    add_origins(*method, run.method->parameters(), run.origins);
+  else
+    add_library_of(integrators().find(run.method->descriptor().name), run.origins);
   if (!run.settings.formulation.empty())
     add_origins(formulations().get(run.settings.formulation, "formulation"),
                 run.model->source().formulation_parameters, run.origins);

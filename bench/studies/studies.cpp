@@ -4,6 +4,7 @@
 #include <optional>
 
 #include <pfaff/core/errors/errors.hpp>
+#include <pfaff/core/process/shared_object.hpp>
 #include <pfaff/core/registry/later_library.hpp>
 #include <pfaff/core/registry/shipped_plugins.hpp>
 #include <pfaff/core/system.hpp>
@@ -24,7 +25,8 @@ const StudyFunctions& studies() {
     load_later_library({.kind = "library of studies",
                         .file = PFAFF_STUDIES_LIBRARY,
                         .target = "pfaff_studies",
-                        .linked_with = {&systems(), &registered_functions}});
+                        .linked_with = {&systems(), &registered_functions}},
+                       load_shared_object);
   if (!registered_functions) throw RunError("the library of studies registers nothing");
   return *registered_functions;
 }

@@ -9,7 +9,6 @@
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/process/input_file.hpp>
 #include <pfaff/core/process/loaded_objects.hpp>
-#include <pfaff/core/process/shared_object.hpp>
 #include <pfaff/core/registry/abi.hpp>
 
 namespace pfaff {
@@ -78,12 +77,13 @@ std::string path_of(const LaterLibrary& library) {
   return fs::path(object_holding(library.linked_with.back()).path).parent_path() / library.file;
 }
 
-void load_later_library(const LaterLibrary& library) {
+void load_later_library(const LaterLibrary& library,
+                        const std::function<void*(const std::string& path, const std::string& who)>& load) {
   const fs::path path = path_of(library);
   const std::string who = library.kind + " '" + path.string() + "'";
   std::error_code error;
   std::string fault = fs::exists(path, error) ? fault_of(path, library) : "is missing";
-  if (fault.empty() && load_shared_object(path.string(), who) == nullptr) {
+  if (fault.empty() && load(path.string(), who) == nullptr) {
     const char* words = dlerror();
     fault = words != nullptr ? words : "cannot be loaded";
   }

@@ -5,6 +5,7 @@
 // note.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,9 @@ struct LaterLibrary {
 /// Where it is looked for.
 std::string path_of(const LaterLibrary& library);
 
-/// Loads it and with it what it registers. InputError, which names the line that mends it, where it is
-/// missing, damaged or of another build; RunError where nothing can be loaded.
-void load_later_library(const LaterLibrary& library);
+/// Looks at the file, and then loads it by `load`, which gives null where dlopen does. InputError, which
+/// names the line that mends it, where it is missing, damaged or of another build.
+void load_later_library(const LaterLibrary& library,
+                        const std::function<void*(const std::string& path, const std::string& who)>& load);
 
 }  // namespace pfaff

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include <pfaff/core/errors/errors.hpp>
@@ -43,6 +44,10 @@ class RegistrationFaults {
   std::vector<std::string> duplicates_, misnamed_;
 };
 
+/// Whether the library of plug-ins has some of this kind.
+template <class P>
+constexpr bool shipped_apart = std::is_same_v<P, SystemPlugin> || std::is_same_v<P, MethodPlugin>;
+
 /// All plug-ins of one kind.
 template <class P>
 class Registry final : public RegistrationFaults {
@@ -62,18 +67,18 @@ class Registry final : public RegistrationFaults {
 
   /// Plug-ins in alphabetical order, without aliases.
   [[nodiscard]] const std::vector<const P*>& all() const {
-    load_shipped_plugins();
+    complete();
     return plugins_;
   }
   /// Aliases in alphabetical order.
   [[nodiscard]] const std::vector<const P*>& aliases() const {
-    load_shipped_plugins();
+    complete();
     return aliases_;
   }
 
   /// The plug-in or alias of that name; null where there is none.
   [[nodiscard]] const P* find(std::string_view name) const {
-    load_shipped_plugins();
+    complete();
     for (const auto* list : {&plugins_, &aliases_})
       if (const auto place = place_of(name, *list); has(name, *list, place)) return *place;
     return nullptr;
@@ -95,12 +100,15 @@ class Registry final : public RegistrationFaults {
     // An alias may be the nearest name; the list of what there is does without them.
     const std::string near = nearest(name, names_and_aliases());
     throw InputError(unknown_name(kind, name, near.empty() ? names() : names_and_aliases()) +
-                     what_is_left_out());
+                     (shipped_apart<P> ? what_is_left_out() : ""));
   }
 
  private:
   using List = std::vector<const P*>;
 
+  static void complete() {
+    if constexpr (shipped_apart<P>) load_shipped_plugins();
+  }
   static typename List::const_iterator place_of(std::string_view name, const List& list) {
     return std::lower_bound(list.begin(), list.end(), name,
                             [](const P* plugin, std::string_view key) { return plugin->name() < key; });
@@ -108,13 +116,16 @@ class Registry final : public RegistrationFaults {
   static bool has(std::string_view name, const List& list, typename List::const_iterator place) {
     return place != list.end() && (*place)->name() == name;
   }
-  void insert(const P* plugin, List& list, const List& other) {
+  void insert(const P* plugin, List& list, List& other) {
     const std::string& name = plugin->name();
     if (!is_kebab_case(name)) return refuse(*plugin, "name", name);
-    for (const List* taken : {static_cast<const List*>(&list), &other})
+    for (List* taken : {&list, &other})
       if (const auto place = place_of(name, *taken); has(name, *taken, place)) {
-        duplicates_.push_back(name + " in " + (*place)->file() + " and " + plugin->file());
-        return;
+        const bool displaces = shipped_plugins_register();
+        const P &kept = displaces ? *plugin : **place, &duplicate = displaces ? **place : *plugin;
+        duplicates_.push_back(name + " in " + kept.file() + " and " + duplicate.file());
+        if (!displaces) return;
+        taken->erase(place);
       }
     list.insert(place_of(name, list), plugin);
   }

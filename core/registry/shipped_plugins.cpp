@@ -1,5 +1,7 @@
 #include <pfaff/core/registry/shipped_plugins.hpp>
 
+#include <dlfcn.h>
+
 #include <atomic>
 #include <mutex>
 
@@ -14,28 +16,41 @@ std::string& fault() {
   return text;
 }
 
+bool& loads() {
+  static thread_local bool value = false;
+  return value;
+}
+
 LaterLibrary library() {
   return {.kind = "library of plug-ins",
           .file = PFAFF_PLUGINS_LIBRARY,
-          .target = "pfaff_plugins",
+          .target = "pfaff_studies",  // with all that is installed
           .linked_with = {&fault()}};
 }
 }  // namespace
 
+bool shipped_plugins_register() { return loads(); }
+
+// Each thread that comes before the library is there loads it: the loader has the others wait, and runs
+// initialisers once. A lock of our own around that would be taken before the loader's here, and after it
+// where an initialiser reads a registry.
 void load_shipped_plugins() {
   static std::atomic<bool> done = false;
-  if (done.load(std::memory_order_acquire)) return;
-  // Other threads wait. What reads the registries while the library is loaded is what it registers itself.
-  static std::recursive_mutex one_at_a_time;
-  const std::lock_guard lock(one_at_a_time);
-  static bool begun = false;
-  if (begun) return;
-  begun = true;
+  if (done.load(std::memory_order_acquire) || loads()) return;
+  loads() = true;
+  std::string found;
   try {
-    load_later_library(library());
+    load_later_library(library(), [](const std::string& path, const std::string& /*who*/) {
+      return dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+    });
   } catch (const std::exception& error) {
-    fault() = error.what();
+    found = error.what();
   }
+  loads() = false;
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
+  if (done.load(std::memory_order_relaxed)) return;
+  fault() = found;
   done.store(true, std::memory_order_release);
 }
 

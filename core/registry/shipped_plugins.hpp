@@ -9,8 +9,12 @@
 
 namespace pfaff {
 
-/// Loads the library, once. Where that is not possible, plugins_left_out() says why.
+/// Loads the library, once. Where that is not possible, plugins_left_out() says why. Any number of threads
+/// may ask for it, also from initialisers that the loader runs.
 void load_shipped_plugins();
+
+/// True while this thread loads the library: what is registered now is what ships.
+bool shipped_plugins_register();
 
 /// Why the library is not loaded, with the line that mends it; empty where it is.
 const std::string& plugins_left_out();

@@ -6,6 +6,8 @@
 PYBIND11_MODULE(_pfaff, module) {
   module.doc() = "What the package pfaff calls of the C++ libraries; import pfaff instead.";
   module.attr("__version__") = PFAFF_VERSION_TEXT;
+  if (const std::string& left_out = pfaff::plugins_left_out(); !left_out.empty())
+    throw pybind11::import_error(left_out);
   // Classes come before the functions that take them: signatures, of which stubs are made, name them.
   pfaff::python::bind_errors(module);
   pfaff::python::bind_recording(module);

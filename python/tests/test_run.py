@@ -33,6 +33,14 @@ def test_drift_tells_kept_energies_from_lost_ones():
         energy["slop"]
 
 
+def test_the_files_of_a_run_name_the_library_that_made_it(tmp_path):
+    for of, (system, method) in enumerate([("pendulum", "verlet"), (duffing, "verlet"), ("damped-oscillator", "yoshida")]):
+        pfaff.run(system, method, step=0.1, time=1, out=tmp_path / str(of))
+        assert '"libpfaff_plugins.so' in (tmp_path / str(of) / "config.toml").read_text()
+    pfaff.run("damped-oscillator", "rk4", step=0.1, time=1, out=tmp_path / "main")
+    assert "libpfaff_plugins" not in (tmp_path / "main" / "config.toml").read_text()
+
+
 def test_the_table_of_drift_has_units():
     damped = pfaff.run("damped-oscillator", "rk4", step=0.1, time=10)
     head, row = (line.split("  ") for line in repr(damped).splitlines()[1:])

@@ -233,9 +233,9 @@ TEST_F(ShippedPlugins, TheMainJobNeedsNoneOfThem) {
 
 TEST_F(ShippedPlugins, WhatNeedsThemSaysWhatMakesThem) {
   say_that_it_is_a_build_tree(directory());
-  const std::string build = "cmake --build '" + directory().string() + "' --target pfaff_plugins";
+  const std::string build = "cmake --build '" + directory().string() + "' --target pfaff_studies";
   const std::string name = "library of plug-ins '" + library().string() + "': is missing";
-  expect_not_all({"not all is listed", name, build}, "missing");
+  expect_not_all({"not all systems and methods are shown", name, build}, "missing");
   for (const Arguments& arguments :
        {Arguments{"run", "kepler", "rk4", "--step", "0.1", "--time", "1", "--out", "-"},
         Arguments{"run", "damped-oscillator", "verlet", "--step", "0.1", "--time", "1", "--out", "-"},
@@ -244,6 +244,20 @@ TEST_F(ShippedPlugins, WhatNeedsThemSaysWhatMakesThem) {
         Arguments{"falsify", "rk4"}})
     expect_complaint(run(arguments), 2, {name, build}, joined(arguments));
   EXPECT_FALSE(fs::exists(directory() / "out"));
+  // Of two experiments the second needs it, which is seen before the first is run.
+  const Arguments two{"compare", "damped-oscillator", "kepler", "--quick", "--no-report", "--out", "two"};
+  expect_complaint(run(two), 2, {"unknown system 'kepler'", name, build}, joined(two));
+  EXPECT_FALSE(fs::exists(directory() / "two"));
+  // What takes every method does not take those alone that are there.
+  write(directory() / "all.toml",
+        "schema = 1\ntitle = \"All\"\nmethods = \"all\"\n[[case]]\nname = \"one\"\n"
+        "system = \"damped-oscillator\"\ntime = \"1\"\nsteps = [\"0.1\"]\n");
+  expect_complaint(run({"compare", "all.toml", "--no-report", "--out", "all"}), 2, {name, build},
+                   "methods = all");
+  expect_complaint(run({"list", "--markdown"}), 2, {name, build}, "list --markdown");
+  // What a plug-in fits is among others; kinds that are there whole are listed without a word.
+  EXPECT_NE(run({"describe", "rk4"}).err.find("not all systems and methods are shown"), std::string::npos);
+  EXPECT_EQ(run({"list", "measures"}).err, "");
   // A complaint about a file shows its line too.
   const Outcome of_table =
       run({"run", "damped-oscillator", example_table(), "--step", "0.1", "--time", "1", "--out", "-"});

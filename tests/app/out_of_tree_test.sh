@@ -60,6 +60,7 @@ done
 for instantiated in by_program by_library; do
   "$scratch/outside/$instantiated" >"$scratch/out" || fail "$instantiated: $(grep DIFFERENT "$scratch/out")"
 done
+"$scratch/outside/first_reads" "$scratch/outside/reads_while_loaded.so" >"$scratch/out" || fail "first reads: $(<"$scratch/out")"
 
 "$scratch/program/energy" >"$scratch/out"
 awk '$1 == "verlet" { verlet = $2 } $1 == "rk4" { rk4 = $2 }
