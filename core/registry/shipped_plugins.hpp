@@ -2,8 +2,9 @@
 // but for those of the main job, which libpfaff has.
 //
 // The main job needs a few of them, and nothing else waits until all are compiled: the library is built after
-// libpfaff or not at all. Registries load it when they are first read (core/registry/registry.hpp). What ships
-// has its name then, also where a program has registered something of that name before, which is a duplicate.
+// libpfaff or not at all. Registries load it when they are first read (core/registry/registry.hpp). What
+// ships has its name then, also where a program has registered something of that name before, which is a
+// duplicate.
 #pragma once
 
 #include <string>
