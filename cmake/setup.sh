@@ -50,6 +50,7 @@ needed=(
 [[ ${1:-} == --lint ]] && needed+=(
   "clang-format program:clang-format"
   "clang-tidy program:clang-tidy"
+  "clang program:clang++"
   "libclang-dev header:clang-c/Index.h"
   "llvm-dev program:llvm-config"
   "shellcheck program:shellcheck"
