@@ -74,7 +74,7 @@ struct MotionOfRun {
     const bool begins = at.step != work.before + 1 || work.stretch == 0;
     if (begins) ++work.stretch;
     work.before = at.step;
-    const auto [first, second] = work.plane;
+    const std::size_t first = work.plane.first, second = work.plane.second;
     const std::vector<Coordinate>& all = run.start.model()->coordinates();
     row = {with_unit(all[first].name, all[first].unit), with_unit(all[second].name, all[second].unit),
            double(work.stretch), at.z[first], at.z[second]};
