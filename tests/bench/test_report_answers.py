@@ -7,7 +7,7 @@ import unittest
 
 from synthetic import CLASSES, COLUMNS, Fresh, describe, load, measured, reading, save, synthetic
 from test_report_constraints import ensemble
-from test_report_motion import walks
+from test_report_ensembles import walks
 
 import answers  # noqa: E402
 import first_screen  # noqa: E402

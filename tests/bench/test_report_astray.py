@@ -5,7 +5,7 @@ import unittest
 
 from synthetic import Fresh, load, reading, save
 from test_report_drift_sentences import Three
-from test_report_motion import walks
+from test_report_ensembles import walks
 
 import answers  # noqa: E402
 import astray  # noqa: E402

@@ -5,7 +5,7 @@ import sys
 import unittest
 
 from synthetic import Fresh, load, reading, run, save, synthetic
-from test_report_motion import walks
+from test_report_ensembles import walks
 
 import answers  # noqa: E402
 import first_screen  # noqa: E402
