@@ -240,7 +240,7 @@ int list(const ListOptions& options, bool json) {
   if (!kind.empty() && std::find(known.begin(), known.end(), kind) == known.end())
     throw InputError(unknown_name("kind", kind, known));
   if (options.markdown) {
-    if (const std::string& left_out = plugins_left_out(); !left_out.empty()) throw InputError(left_out);
+    require_shipped_plugins();
     if (kind.empty()) return plugins_in_markdown();
     if (kind == "integrators") return methods_in_markdown();
     throw InputError("--markdown: expected no kind, or integrators, got '" + kind + "'");

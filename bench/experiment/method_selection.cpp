@@ -93,7 +93,7 @@ MethodSelection read_selection(Keys& keys, const std::string& where) {
 }
 
 std::vector<ExperimentMethod> selected_methods(const MethodSelection& selection) {
-  if (const std::string& left_out = plugins_left_out(); !left_out.empty()) throw InputError(left_out);
+  require_shipped_plugins();
   std::vector<ExperimentMethod> methods;
   for (const MethodPlugin* plugin : integrators().all()) {
     AssignmentLists lists = selection.set;

@@ -20,7 +20,7 @@ std::optional<StudyFunctions> registered_functions;
 const StudyFunctions& studies() {
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
-  if (const std::string& fault = plugins_left_out(); !fault.empty()) throw InputError(fault);
+  require_shipped_plugins();
   if (!registered_functions)
     load_later_library({.kind = "library of studies",
                         .file = PFAFF_STUDIES_LIBRARY,

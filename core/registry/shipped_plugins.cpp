@@ -16,10 +16,7 @@ std::string& fault() {
   return text;
 }
 
-bool& loads() {
-  static thread_local bool value = false;
-  return value;
-}
+thread_local bool loads = false;  // whether this thread loads the library
 
 LaterLibrary library() {
   return {.kind = "library of plug-ins",
@@ -29,15 +26,15 @@ LaterLibrary library() {
 }
 }  // namespace
 
-bool shipped_plugins_register() { return loads(); }
+bool shipped_plugins_register() { return loads; }
 
 // Each thread that comes before the library is there loads it: the loader has the others wait, and runs
 // initialisers once. A lock of our own around that would be taken before the loader's here, and after it
 // where an initialiser reads a registry.
 void load_shipped_plugins() {
   static std::atomic<bool> done = false;
-  if (done.load(std::memory_order_acquire) || loads()) return;
-  loads() = true;
+  if (done.load(std::memory_order_acquire) || loads) return;
+  loads = true;
   std::string found;
   try {
     load_later_library(library(), [](const std::string& path, const std::string& /*who*/) {
@@ -46,7 +43,7 @@ void load_shipped_plugins() {
   } catch (const std::exception& error) {
     found = error.what();
   }
-  loads() = false;
+  loads = false;
   static std::mutex one_at_a_time;
   const std::lock_guard lock(one_at_a_time);
   if (done.load(std::memory_order_relaxed)) return;
@@ -57,6 +54,10 @@ void load_shipped_plugins() {
 const std::string& plugins_left_out() {
   load_shipped_plugins();
   return fault();
+}
+
+void require_shipped_plugins() {
+  if (!plugins_left_out().empty()) throw InputError(plugins_left_out());
 }
 
 std::string what_is_left_out() { return plugins_left_out().empty() ? "" : "; " + plugins_left_out(); }

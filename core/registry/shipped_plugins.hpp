@@ -21,6 +21,9 @@ bool shipped_plugins_register();
 /// Why the library is not loaded, with the line that mends it; empty where it is.
 const std::string& plugins_left_out();
 
+/// InputError that says so: for what is about all plug-ins and would otherwise be about some.
+void require_shipped_plugins();
+
 /// The same as the end of a message about a name that is not there: "; library of plug-ins …", or nothing.
 std::string what_is_left_out();
 

@@ -46,6 +46,13 @@ class OneLibraryAway : public ::testing::Test {
     write(files_.path() / "CMakeCache.txt", "# cache\nCMAKE_HOME_DIRECTORY:INTERNAL=" + source +
                                                 "\nPfaff_BINARY_DIR:STATIC=" + libraries.string() + "\n");
   }
+  void expect_main_job() const {
+    say_that_it_is_a_build_tree(directory());
+    const Outcome outcome =
+        run({"compare", "damped-oscillator", "--quick", "--no-report", "--timing", "0.001", "--out", "out"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_TRUE(fs::exists(directory() / "out/results.csv"));
+  }
   [[nodiscard]] const fs::path& directory() const { return files_.path(); }
   [[nodiscard]] const fs::path& library() const { return library_; }
   [[nodiscard]] const std::string& whole() const { return whole_; }
@@ -113,11 +120,7 @@ TEST_F(Studies, NamesAndHelpNeedNoLibrary) {
 }
 
 TEST_F(Studies, ExperimentsNeedNoLibrary) {
-  say_that_it_is_a_build_tree(directory());
-  const Outcome outcome =
-      run({"compare", "damped-oscillator", "--quick", "--no-report", "--timing", "0.001", "--out", "out"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(fs::exists(directory() / "out/results.csv"));
+  expect_main_job();
   // One of several experiments needs it, which is seen before any is run.
   const Arguments two{"compare", "damped-oscillator", "derive", "--quick", "--no-report", "--out", "both"};
   expect_complaint(run(two), 2, {"is missing"}, joined(two));
@@ -204,11 +207,7 @@ TEST_F(Studies, ARefusalNamesWhatMendsIt) {
 }
 
 TEST_F(ShippedPlugins, TheMainJobNeedsNoneOfThem) {
-  say_that_it_is_a_build_tree(directory());
-  const Outcome outcome =
-      run({"compare", "damped-oscillator", "--quick", "--no-report", "--timing", "0.001", "--out", "out"});
-  EXPECT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_TRUE(fs::exists(directory() / "out/results.csv"));
+  expect_main_job();
   // Its runs are the same with the library, which made nothing of them.
   const Arguments kept{"run", "damped-oscillator", "gauss", "--step", "0.1", "--time", "1", "--out", "kept"};
   EXPECT_EQ(run(kept).status, 0);
@@ -218,17 +217,16 @@ TEST_F(ShippedPlugins, TheMainJobNeedsNoneOfThem) {
   EXPECT_EQ(again.status, 0) << again.err;
   EXPECT_EQ(text_of(directory() / "kept/config.toml"), before);
   EXPECT_EQ(before.find("libpfaff_plugins"), std::string::npos);
-  // The control: what is made by the library names its build.
-  const Arguments pendulum{"run", "pendulum", "verlet", "--step", "0.1", "--time", "1", "--out", "pendulum"};
-  EXPECT_EQ(run(pendulum).status, 0);
-  EXPECT_NE(
-      text_of(directory() / "pendulum/config.toml").find("\"" + library().filename().string() + "\" = "),
-      std::string::npos);
-  // So do tables, whose methods are the library's.
-  EXPECT_EQ(
-      run({"run", "pendulum", example_table(), "--step", "0.1", "--time", "1", "--out", "table"}).status, 0);
-  EXPECT_NE(text_of(directory() / "table/config.toml").find("\"" + library().filename().string() + "\" = "),
-            std::string::npos);
+  // The control: what is made by the library names its build, and so do tables, whose methods are the
+  // library's.
+  for (const std::string& method : {std::string("verlet"), example_table()}) {
+    EXPECT_EQ(
+        run({"run", "pendulum", method, "--step", "0.1", "--time", "1", "--force", "--out", "made"}).status,
+        0);
+    EXPECT_NE(text_of(directory() / "made/config.toml").find("\"" + library().filename().string() + "\" = "),
+              std::string::npos)
+        << method;
+  }
 }
 
 TEST_F(ShippedPlugins, WhatNeedsThemSaysWhatMakesThem) {
