@@ -17,9 +17,10 @@ bool is_rounding(std::span<const double> residuals, double tolerance) {
   return std::sqrt(squares / (count - 1)) > fraction * sum / count;
 }
 
-bool falls_with_the_precision(double in_double, double in_quad) {
+bool falls_with_the_precision(double in_double, double in_quad) { return in_quad <= most_in_quad(in_double); }
+double most_in_quad(double in_double) {
   constexpr double fall = 1e13, most = 1e-8;
-  return in_double <= most && in_quad * fall <= in_double;
+  return in_double <= most ? in_double / fall : -1;
 }
 
 template <class T>

@@ -50,5 +50,7 @@ std::vector<double> of_moved_starts(const std::vector<Real>& start, const Measur
 /// True where a residual is rounding, or what a stopping rule leaves: in quad it is smaller by as much as the
 /// precisions differ, which no error of a method is. What is above 1e-8 in double is neither.
 bool falls_with_the_precision(double in_double, double in_quad);
+/// The largest residual in quad for which that is true; below zero where there is none.
+double most_in_quad(double in_double);
 
 }  // namespace pfaff

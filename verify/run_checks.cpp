@@ -20,6 +20,8 @@ constexpr int steps_of_run = 1000, looks = 16;
 // Of a method that remembers earlier steps, so many come before the one that is judged.
 constexpr std::array warm_ups{16, 96, 198};
 constexpr int most_doublings = 6;
+// Where residuals are found to be rounding at so many states, some others are looked at.
+constexpr int most_excused = 32;
 // Runs of larger systems would take most of the time of verification; small ones of every kind show the same.
 constexpr int small_system = 8;
 
@@ -161,12 +163,12 @@ RunInDouble follow(const MethodOnModel& on, const Real& step, bool compared) {
   return found;
 }
 
-// The claim in a step from a place, once more where its residual may be rounding.
+// The claim in a step from a place, once more where its residual may be rounding and is more than `enough`.
 template <class T>
 double residual_in(MeasuredStep<T>& step, const MethodOnModel& on, const ClaimCheck& row, const Place& place,
-                   const Real& h) {
+                   const Real& h, double enough = tolerance<T>()) {
   const double residual = residual_of(row, step);
-  if (!(residual > tolerance<T>())) return residual;
+  if (!(residual > enough)) return residual;
   const auto moved = of_moved_starts<T>(place.z, [&](const std::vector<Real>& start) {
     MeasuredStep<T> again(on.method(), on.model(), start, place.t, h, step.warm_up());
     return residual_of(row, again);
@@ -175,9 +177,9 @@ double residual_in(MeasuredStep<T>& step, const MethodOnModel& on, const ClaimCh
 }
 template <class T>
 double residual_at(const MethodOnModel& on, const ClaimCheck& row, const Place& place, const Real& h,
-                   int warm_up) {
+                   int warm_up, double enough = tolerance<T>()) {
   MeasuredStep<T> step(on.method(), on.model(), place.z, place.t, h, warm_up);
-  return residual_in(step, on, row, place, h);
+  return residual_in(step, on, row, place, h, enough);
 }
 
 // Rows of the claims that the method makes and that a single step shows.
@@ -198,12 +200,14 @@ Check check_of(const MethodOnModel& on, const ClaimCheck& row, const char* where
 }
 
 // Fails where a claim is lost in a step from one of the places: of claims that need the Jacobian of the step
-// from sixteen of them, of others from each. Double coefficients and stopping rules leave more than rounding.
+// from sixteen of them, of others from each, or from sixteen where many needed a second look. Double
+// coefficients and stopping rules leave more than rounding.
 Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, const std::vector<Place>& places,
              Check check) {
   check.tolerance = most_left_by_stopping * tolerance<double>() * on.growth_of_round_off();
   check.result = CheckResult::pass;
   std::optional<MeasuredStep<double>> step;  // which is moved from place to place
+  int excused = 0;
   const auto in_double = [&](const Place& place) {
     if (on.history()) return residual_at<double>(on, row, {on.start(), on.time()}, h, place.steps);
     if (step) {
@@ -211,14 +215,15 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     } else {
       step.emplace(on.method(), on.model(), place.z, place.t, h);
     }
-    return residual_in(*step, on, row, place, h);
+    return residual_in(*step, on, row, place, h, check.tolerance);
   };
-  const auto in_quad = [&](const Place& place) {
-    return on.history() ? residual_at<Quad>(on, row, {on.start(), on.time()}, h, place.steps)
-                        : residual_at<Quad>(on, row, place, h, 0);
+  const auto in_quad = [&](const Place& place, double enough) {
+    return on.history() ? residual_at<Quad>(on, row, {on.start(), on.time()}, h, place.steps, enough)
+                        : residual_at<Quad>(on, row, place, h, 0, enough);
   };
   for (const Place& place : places) {
-    if (row.from_jacobian && !on.history() && place.steps % (steps_of_run / looks) != 0) continue;
+    const bool some = row.from_jacobian || excused >= most_excused;
+    if (some && !on.history() && place.steps % (steps_of_run / looks) != 0) continue;
     const double residual = in_double(place);
     if (std::isnan(residual)) break;  // steps that do not converge are no claim's fault
     const bool lost = residual > check.tolerance;
@@ -228,7 +233,11 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     if (lost && leads_back(row.claim) && near_a_kink(on, place, h)) continue;
     check.measured = std::max(check.measured, residual);
     if (!lost) continue;
-    if (!on.double_coefficients() && falls_with_the_precision(residual, in_quad(place))) continue;
+    const double falls = most_in_quad(residual);
+    if (!on.double_coefficients() && falls >= 0 && in_quad(place, falls) <= falls) {
+      ++excused;
+      continue;
+    }
     check.result = CheckResult::fail;
     check.reason = "lost in step " + std::to_string(place.steps + 1);
     if (h != on.step_size()) check.reason += ", of size " + to_string(h.quad(), 3);

@@ -1,6 +1,8 @@
 #include <pfaff/core/numbers/gauss_legendre.hpp>
 
 #include <cmath>
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <utility>
 
@@ -19,10 +21,8 @@ std::pair<Quad, Quad> legendre(int n, Quad x) {
   return {value, Quad(n) * (x * value - previous) / (x * x - Quad(1))};
 }
 
-}  // namespace
-
 // Newton's method on P_n from the asymptotic places of its roots.
-std::vector<QuadratureNode> gauss_legendre(int n) {
+std::vector<QuadratureNode> computed(int n) {
   std::vector<QuadratureNode> nodes;
   for (int k = 0; k < n; ++k) {
     Quad x(std::cos(std::numbers::pi * (k + 0.75) / (n + 0.5)));
@@ -35,6 +35,18 @@ std::vector<QuadratureNode> gauss_legendre(int n) {
     nodes.push_back({Real((Quad(1) + x) / Quad(2)), Real(Quad(1) / ((Quad(1) - x * x) * slope * slope))});
   }
   return nodes;
+}
+
+}  // namespace
+
+// Every stepper of some methods asks for them.
+std::vector<QuadratureNode> gauss_legendre(int n) {
+  static std::mutex mutex;
+  static std::map<int, std::vector<QuadratureNode>> known;
+  const std::lock_guard lock(mutex);
+  auto place = known.find(n);
+  if (place == known.end()) place = known.emplace(n, computed(n)).first;
+  return place->second;
 }
 
 }  // namespace pfaff

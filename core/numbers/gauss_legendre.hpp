@@ -12,7 +12,8 @@ struct QuadratureNode {
   Real place, weight;
 };
 
-/// The n >= 1 nodes in (0, 1), in descending order, and their weights, whose sum is 1.
+/// The n >= 1 nodes in (0, 1), in descending order, and their weights, whose sum is 1. They are computed
+/// once in a process.
 std::vector<QuadratureNode> gauss_legendre(int n);
 
 }  // namespace pfaff
