@@ -212,7 +212,10 @@ int run(const RunOptions& options, const Common& common) {
   const auto experiment = take_experiment_of(directory, "pfaff run");
   const auto held = take_output_directory(directory, "pfaff run", ours);
   const KeptRun kept = kept_run(directory, resolved);
-  if (!options.force) refuse_to_replace(kept, options.out);
+  if (!options.force) {
+    refuse_to_replace(kept, options.out);
+    refuse_files_of_others(directory, ours, "a new directory, an empty one, or --force to replace it");
+  }
   const nlohmann::json j = kept.current() ? kept.summary : made_in(directory, resolved, common.quiet);
   nlohmann::json tables = tables_of_measures(options.out, resolved, measures, j);
   if (common.quiet) return finish(j, "", !measures.empty());

@@ -1,5 +1,11 @@
 #include <pfaff/runs/measure.hpp>
 
+#include <algorithm>
+#include <array>
+#include <new>
+
+#include <pfaff/core/errors/budget.hpp>
+
 namespace pfaff {
 
 template class Registry<MeasurePlugin>;
@@ -20,8 +26,36 @@ std::string MeasureInstance::called() const {
   return to_string(PluginValue{descriptor().name, parameters()});
 }
 
+namespace {
+// What is wrong with the names of columns, which stand behind those of the run in every table; or empty.
+std::string wrong_names(const std::vector<Column>& columns) {
+  constexpr std::array of_the_run{"case", "method", "step", "t"};
+  for (auto column = columns.begin(); column != columns.end(); ++column) {
+    const std::string& name = column->name;
+    if (name.empty()) return "has a column without a name";
+    if (std::find(of_the_run.begin(), of_the_run.end(), name) != of_the_run.end())
+      return "has a column '" + name + "', which every table of a measure has before its own";
+    if (std::any_of(columns.begin(), column, [&](const Column& other) { return other.name == name; }))
+      return "has two columns '" + name + "'";
+  }
+  return {};
+}
+}  // namespace
+
 std::string MeasureInstance::refuses(const Model& model, const MethodInstance& method) const {
-  const std::string reason = objection(model, method);
+  std::string reason;
+  try {
+    reason = objection(model, method);
+    if (reason.empty()) reason = wrong_names(columns(model));
+  } catch (const BudgetSpent&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const InputError&) {  // of settings that name what the system has not
+    throw;
+  } catch (...) {
+    reason = "fails: " + words_of_current_exception();
+  }
   return reason.empty() ? reason : descriptor().name + " " + reason;
 }
 

@@ -107,7 +107,8 @@ class MeasureInstance {
   /// NAME, or NAME(key=value, …) with all of its settings.
   [[nodiscard]] std::string called() const;
   [[nodiscard]] virtual std::vector<Column> columns(const Model& model) const = 0;
-  /// Why it says nothing of runs of this method on this model, naming itself; empty where it does.
+  /// Why it says nothing of runs of this method on this model, naming itself; empty where it does. What its
+  /// author's code throws is such a reason, and so are names of columns that cannot stand in a table.
   [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& method) const;
   /// Sets to work on a run, whose `start` must outlive what is returned.
   [[nodiscard]] virtual std::unique_ptr<Measuring<double>> on(const Measured<double>& run) const = 0;

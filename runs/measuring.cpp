@@ -61,6 +61,10 @@ struct AtWork {
     if (row.size() != table->columns.size())
       throw InputError("expected a row of " + std::to_string(table->columns.size()) + " cells, got " +
                        std::to_string(row.size()));
+    for (std::size_t i = 0; i < row.size(); ++i)
+      if (table->columns[i].kind == Column::Kind::number && std::holds_alternative<std::string>(row[i]))
+        throw InputError("column " + table->columns[i].name + ": expected a number, got '" +
+                         std::get<std::string>(row[i]) + "'");
     table->lines.push_back({step, std::move(row)});
   }
 };

@@ -74,9 +74,9 @@ class Curve:
         """Whether the structure is kept: True, False, or None where that is not known.
 
         It is kept where the method claims it, a run finished and no residual says otherwise, and where the residual is round-off at the
-        coarsest step although the error of a step is not: what truncation leaves of a residual is largest there, and of a
-        step that is right to round-off a small residual is accuracy. At finer steps round-off may grow, because what a
-        method solves for in a step is divided by the step."""
+        coarsest step although the square of the error of a step is not: what truncation leaves of a residual is largest there,
+        of methods that are nearly symplectic no less than that square, and of a step that is more precise a small residual is
+        accuracy. At finer steps round-off may grow, because what a method solves for in a step is divided by the step."""
         if any(x > GROWN * self.unit for _, x in self.residuals):
             return False
         if self.claims:
@@ -86,7 +86,7 @@ class Curve:
         if max(self.residuals)[1] > ROUND_OFF * self.unit:
             return False
         coarsest = max(self.points, key=lambda p: p.run.step)
-        seen = self.of_state and coarsest.error / max(1.0, coarsest.run.steps) > ROUND_OFF * self.unit
+        seen = self.of_state and (coarsest.error / max(1.0, coarsest.run.steps)) ** 2 > ROUND_OFF * self.unit
         return True if seen else None
 
     @property

@@ -90,6 +90,27 @@ const std::vector<std::string>& run_file_names() {
   return names;
 }
 
+void refuse_files_of_others(const fs::path& directory, const std::vector<std::string>& ours,
+                            const std::string& expected) {
+  std::error_code error;
+  const auto other = std::find_if(ours.begin(), ours.end(), [&](const std::string& name) {
+    return fs::exists(fs::symlink_status(directory / name, error));
+  });
+  if (other == ours.end()) return;
+  try {
+    (void)read_config((directory / config_name).string());
+    return;
+  } catch (const InputError&) {  // of systems that no file can name there are no settings
+    const auto text = text_in(directory / summary_name);
+    const nlohmann::json summary = nlohmann::json::parse(text.value_or(""), nullptr, false);
+    if (summary.is_object() && summary.contains("schema")) return;
+  }
+  throw InputError(
+      "output directory '" + directory.string() + "' holds " + *other +
+      ", but neither a config.toml nor a summary.json of a run, as a run would leave them; expected " +
+      expected);
+}
+
 nlohmann::json write_run(const fs::path& directory, const ResolvedRun& run,
                          const ReferenceSolution* reference, const Progress& progress,
                          const std::atomic<bool>* stop) {

@@ -33,9 +33,15 @@ struct KeptRun {
   [[nodiscard]] bool same() const { return known && !other && changed.empty(); }
   /// True where the files are what the run would leave if it were made now.
   [[nodiscard]] bool current() const { return whole && same(); }
-  /// True where they would be, if a file or a build had not changed.
-  [[nodiscard]] bool outdated() const { return whole && !other && !changed.empty(); }
+  /// True of a whole run of which a file or a build has changed since; with it settings may have, as the
+  /// initial state that a model file states.
+  [[nodiscard]] bool outdated() const { return whole && !changed.empty(); }
 };
+
+/// Refuses a directory that holds files of the names `ours`, but neither the settings nor the summary of a
+/// run: they are somebody else's. InputError, with what is expected, such as "a new directory".
+void refuse_files_of_others(const std::filesystem::path& directory, const std::vector<std::string>& ours,
+                            const std::string& expected);
 
 /// Looks at what `directory` holds of the run. Nothing that is found in it is an error: what cannot be read
 /// is not whole.

@@ -51,11 +51,11 @@ std::string words_of_current_exception() {
   try {
     throw;
   } catch (const std::exception& error) {
-    return error.what();
+    return on_one_line(error.what());
   } catch (const std::string& text) {
-    return text;
+    return on_one_line(text);
   } catch (const char* text) {
-    return text == nullptr ? "an exception without words" : text;
+    return text == nullptr ? "an exception without words" : on_one_line(text);
   } catch (...) {
     const std::type_info* type = abi::__cxa_current_exception_type();
     if (type == nullptr) return "an exception of another language";

@@ -7,6 +7,7 @@ from typing import Any
 
 from ._arguments import path, shown, text, whole, yes_or_no
 from ._errors import InputError
+from ._naming import kebab
 from ._numbers import text_of_number, texts_of_coordinates, texts_of_state, texts_of_tolerances
 
 
@@ -17,7 +18,16 @@ def listed_measures(given: Any) -> list[str | Callable[[Any], Any]]:
     for one in measures:
         if not isinstance(one, str) and not callable(one):
             raise InputError(f"measures: expected names of measures and functions of the run, got {shown(one)}")
+    names = [name_of(one) if callable(one) else one.partition("(")[0] for one in measures]
+    for name in names:
+        if names.count(name) > 1:
+            raise InputError(f"measures: '{name}' is the name of {names.count(name)} of them; expected names that differ")
     return measures
+
+
+def name_of(function: Callable[[Any], Any]) -> str:
+    """The name of the table of a measure that is a function of the run."""
+    return kebab(getattr(function, "__name__", type(function).__name__))
 
 
 def asked_run(

@@ -14,11 +14,10 @@ import numpy as np
 
 from . import _pfaff
 from ._arguments import real_array, unknown
-from ._asked_run import asked_run, listed_measures
+from ._asked_run import asked_run, listed_measures, name_of
 from ._errors import InputError, InvariantWarning, NotConverged, RunFailed
 from ._integration import Integration, attach, with_parameters
 from ._measure_table import MeasureTable
-from ._naming import kebab
 from ._objects import as_system
 from ._plotted import label_of
 from ._sensitivity import sensitivity_of, warn_of_jumps
@@ -321,7 +320,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     try:
         for function in wanted:
             if callable(function):
-                result.measures[_name_of(function)] = _measured(function, result)
+                result.measures[name_of(function)] = _measured(function, result)
     except BaseException as error:
         attach(error, result)
         raise
@@ -332,13 +331,9 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     return result
 
 
-def _name_of(function: Callable[[Run], Any]) -> str:
-    return kebab(getattr(function, "__name__", type(function).__name__))
-
-
 def _measured(function: Callable[[Run], Any], result: Run) -> MeasureTable:
     """The table of a measure that is a function of the run."""
-    given, measure = function(result), _name_of(function)
+    given, measure = function(result), name_of(function)
     columns = dict(given) if isinstance(given, Mapping) else {measure: given}
     table = {"t": result.t}
     for name, values in columns.items():

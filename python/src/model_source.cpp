@@ -136,6 +136,7 @@ PySystem traced_model(const py::dict& of) {
   check_source(source);  // before its formulas are taken together
   take_separable_energy(source);
   leave_out_redundant(source);
+  text::leave_out_zero_offsets(source);
   text::add_followed_quantities(source);
   mark_quadratic(source);
   return {std::make_shared<const Model>(std::move(source))};

@@ -99,10 +99,14 @@ bool swells(const Facts& facts) {
 /// The class of a trend that noise does not explain; nothing where the trend has none.
 std::optional<Verdict> accepted_trend(const Facts& facts) {
   const double gate = facts.slowest > 0 && facts.slowest < 8 ? 1 / facts.slowest : 0.01;
-  const bool faint = facts.jump < 0.03 * facts.rest &&
-                     std::abs(facts.slope.value) < 6 * (facts.slope.high - facts.slope.low);
-  if (facts.jump < gate * facts.rest || faint)
-    return bounded(told("trend of %.2g %% of the oscillation", 100 * facts.jump / facts.rest));
+  const bool known = std::abs(facts.slope.value) >= 6 * (facts.slope.high - facts.slope.low);
+  const std::string small_trend = told("trend of %.2g %% of the oscillation", 100 * facts.jump / facts.rest);
+  if (facts.jump < 0.01 * facts.rest || (facts.jump < 0.03 * facts.rest && !known))
+    return bounded_throughout(facts, small_trend);
+  if (facts.jump < gate * facts.rest) {
+    if (known) return undetermined(small_trend + told(", which has %.3g periods", facts.slowest));
+    return bounded_throughout(facts, small_trend);
+  }
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
   const bool small = facts.jump < facts.rest;
   if (small && kind != Shape::Kind::line && !(facts.jump > 0.3 * facts.rest && facts.evidence() > 15))
@@ -179,9 +183,11 @@ Verdict decide(const Facts& facts) {
   if (facts.accepted() && facts.shapes[facts.shape].kind == Shape::Kind::power &&
       facts.shapes[facts.shape].parameter < 0.75)
     return undetermined(told("sublinear: like t^%.2g", facts.shapes[facts.shape].parameter));
-  if (facts.white > std::max(facts.walk, facts.smooth - 5) - 6)
+  if (facts.white > std::max(facts.walk, facts.smooth - 5) - 6) {
+    if (facts.curve && facts.late_turns < 4 && facts.range_after_start > 0) return levelled(facts);
     return bounded_throughout(facts, told("no trend: %.2g +- %.2g; oscillation %.2g", facts.slope.value,
                                           (facts.slope.high - facts.slope.low) / 2, facts.oscillation));
+  }
   if (facts.slowest >= 2 && facts.shared >= 0.75)
     return bounded_throughout(facts,
                               told("halves of the run share %.0f %% of the range", 100 * facts.shared));
@@ -280,7 +286,8 @@ Verdict judge(const Observed& observed) {
                      told("max is %.2g of what roundings may add up to", observed.maximum / walk)});
   Verdict verdict = finished(decide(facts));
   if (const std::size_t levels = rounded ? levels_of_rounding(observed) : 0;
-      levels > 0 && (levels <= 4 || !is_trend(verdict.drift_class)))
+      levels > 0 &&
+      (levels <= 4 || (!is_trend(verdict.drift_class) && observed.maximum <= 4 * allowance(r, walk_of(r)))))
     return finished({DriftClass::round_off, told("%zu different values among %zu", levels, series.samples)});
   if (observed.non_finite_time || (facts.lost > 1000 && !is_trend(verdict.drift_class))) {
     // What blows up seldom does so at one rate: the rate is left out.

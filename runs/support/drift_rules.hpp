@@ -18,14 +18,16 @@
 //     e = 0 throughout                                         exact
 //     n < 32                                                   undetermined
 //     max <= u M + 8 u R sqrt(N)                               round-off
-//     at most min(n/4, 40) values, 4 u M apart or less         round-off        no trend, or at most 4 values
+//     at most min(n/4, 40) values, 4 u M apart or less         round-off        at most 4 values, or no trend and
+//                                                                               max <= 4 times what is above
 //     maxima of twentieths of the run grow exponentially       exponential
 //     the spread grows threefold and exceeds jump/4            exponential, linear, polynomial, by its fit
 //     means move < 10 % in the second half                     bounded **       levels off; n >= 96
 //     0 < f < 2, jump < 50 times the oscillation               undetermined     too few periods
 //     a trend beats noise by more than 4:
 //         A beats the trend by more than 2                     undetermined     goes on below if by < 2 %
-//         jump < 1 % of rest, 1/f of it for f < 8              bounded          < 3 %, slope not known to 8 %
+//         jump < 1 % of rest, or < 3 %, slope not known to 8 % bounded *
+//         jump < 1/f of rest, f < 8                            bounded *        undetermined, slope known to 8 %
 //         no line, jump < rest: by 15 and .3 of rest, or       goes on below
 //         line, or power .75 ... 1.3:                          linear           no curve, rest > 12 % of jump
 //           jump < rest, and V is within 2 of the trend, or
@@ -39,7 +41,7 @@
 //     ... or < 22 %, and < 35 % after the first quarter        bounded **       levels off; n >= 96
 //     A beats every trend and noise by more than 6             undetermined     less than a period
 //     a trend of power < .75                                   undetermined     sublinear
-//     W > max(R, S - 5) - 6                                    bounded *
+//     W > max(R, S - 5) - 6                                    bounded *        and ** where it is a curve
 //     f >= 2, halves of the run share >= 75 % of the range     bounded *
 //     e swings 4 times between the outer thirds of its range,
 //       at regular times, halves share >= 60 % of the range    bounded *

@@ -15,6 +15,14 @@ using Tapes = std::shared_ptr<const Tape>;
 
 bool reads_time(const Tapes& tape) { return tape != nullptr && !tape->autonomous(); }
 
+// True where every result is the constant 0, as it was written or folded.
+bool is_zero(const Tape& tape) {
+  return std::all_of(tape.outputs.begin(), tape.outputs.end(), [&](int slot) {
+    const Instruction& i = tape.code[static_cast<std::size_t>(slot)];
+    return i.operation == Operation::constant && tape.constants[static_cast<std::size_t>(i.a)] == Real(0);
+  });
+}
+
 // A function of the whole state; null where the model gives none without the time in it.
 Tapes energy_of(const ModelSource& source) {
   const auto given = [&](Formula f) { return source.given[index(f)]; };
@@ -35,9 +43,11 @@ Tapes energy_of(const ModelSource& source) {
 // False where something may take from the energy, or give to it.
 bool is_conserved(const ModelSource& source) {
   const auto given = [&](Formula f) { return source.given[index(f)]; };
-  return !source.damping && given(Formula::friction) == nullptr && given(Formula::applied_force) == nullptr &&
-         (given(Formula::symmetric_tensor) == nullptr || given(Formula::entropy) != nullptr) &&
-         given(Formula::velocity_offsets) == nullptr && !reads_time(given(Formula::holonomic)) &&
+  const auto acts = [&](Formula f) { return given(f) != nullptr && !is_zero(*given(f)); };
+  return (!source.damping || *source.damping == Real(0)) && !acts(Formula::friction) &&
+         !acts(Formula::applied_force) &&
+         (!acts(Formula::symmetric_tensor) || given(Formula::entropy) != nullptr) &&
+         !acts(Formula::velocity_offsets) && !reads_time(given(Formula::holonomic)) &&
          !reads_time(given(Formula::constraints)) && !reads_time(given(Formula::velocity_constraints)) &&
          !reads_time(given(Formula::poisson_tensor));
 }
@@ -109,6 +119,11 @@ class Followed {
   std::vector<FollowedQuantity> added_;
 };
 }  // namespace
+
+void leave_out_zero_offsets(ModelSource& source) {
+  Tapes& offsets = source.given[index(Formula::velocity_offsets)];
+  if (offsets != nullptr && is_zero(*offsets)) offsets = nullptr;
+}
 
 void add_followed_quantities(ModelSource& source) {
   Followed followed(source);

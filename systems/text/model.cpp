@@ -50,6 +50,7 @@ class Builder {
     if (source_.canonical || d_.damping) require_pairs();
     if (d_.initial_velocities) take_initial_velocities();
     leave_out_redundant(source_);
+    leave_out_zero_offsets(source_);
     add_followed_quantities(source_);
     return std::move(source_);
   }

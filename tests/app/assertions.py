@@ -37,7 +37,7 @@ class Judge(Files):
                  number(r.get(a["columns"][1])) / n) for r in rows if r["structure_residual"]]
         if any(claims) or not seen or max(s[1] for s in seen) > 1e5 * unit:
             return max(s[1] for s in seen) <= 1e5 * unit if seen else any(claims) and bool(rows) or None
-        return False if max(seen)[1] > 1e3 * unit else True if max(seen)[2] > 1e3 * unit else None
+        return False if max(seen)[1] > 1e3 * unit else True if max(seen)[2] > (1e3 * unit) ** 0.5 else None
 
     def astray(self, a, label):
         """Whether no run has a small error, and where the quantity is said to be lost, half of its range is."""

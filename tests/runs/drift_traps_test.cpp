@@ -48,6 +48,26 @@ TEST(DriftTraps, OfExact) {
   });
 }
 
+// RK4 loses energy each time that it leaves a hill, from whose top a run may last for less than one more.
+TEST(DriftTraps, OfASeparatrix) {
+  const auto rate = [](double q) { return q - q * q * q; };
+  for (const int steps : {80, 150, 160}) {
+    constexpr double h = 0.1;
+    double q = std::sqrt(2.0), p = 0;
+    DriftAccumulator drift;
+    drift.add(0, 0);
+    for (int n = 1; n <= steps; ++n) {
+      const double a = p, b = rate(q), c = p + h / 2 * b, d = rate(q + h / 2 * a), e = p + h / 2 * d,
+                   f = rate(q + h / 2 * c), g = p + h * f, k = rate(q + h * e);
+      q += h / 6 * (a + 2 * c + 2 * e + g);
+      p += h / 6 * (b + 2 * d + 2 * f + k);
+      drift.add(h * n, p * p / 2 + q * q * q * q / 4 - q * q / 2);
+    }
+    const Drift found = drift.result({u, 2, steps, 2.0});
+    EXPECT_EQ(found.drift_class, DriftClass::undetermined) << steps << " steps: " << found.evidence;
+  }
+}
+
 // A rest energy of 1e6, whose roundings are 1.1e-10, beside a motion of size 1.
 TEST(DriftTraps, OfRoundOff) {
   const RoundOff beside_rest{u, 1e6, 20000, 1.0}, alone{u, 1, 20000, 1.0}, unknown{u, 1, 20000};
@@ -73,6 +93,11 @@ TEST(DriftTraps, OfRoundOff) {
       {"an oscillation of 1e-7 beside 1e6",
        2000,
        [=](double s) { return evaluated(1e-7 * sine(90, s)); },
+       {"bounded"},
+       beside_rest},
+      {"an oscillation of 24 levels",
+       500,
+       [=](double s) { return evaluated(1.4e-9 * sine(30, s)); },
        {"bounded"},
        beside_rest},
       {"a parabola beside 1e6",
@@ -269,6 +294,14 @@ TEST(DriftTraps, OfUndetermined) {
       {"thirty-one samples of a line", 31, [](double s) { return s; }, {"undetermined"}},
       {"thirty-two samples of a line", 32, [](double s) { return s; }, {"linear"}},
       {"ends in what is no number", 500, last, {"undetermined"}},
+      {"a line of a sixth of a slow oscillation",
+       1000,
+       [](double s) { return sine(4.75, s) + 0.3 * sine(6.2, s) + 0.2 * s; },
+       {"undetermined"}},
+      {"a jump of one sample at the end of an oscillation",
+       1000,
+       [](double s) { return (s > 0.998 ? 400 : 1) * (1 - std::cos(2 * pi * 30 * s)) + s / 100; },
+       {"undetermined", "exponential"}},
   });
 }
 
