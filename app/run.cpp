@@ -214,7 +214,8 @@ int run(const RunOptions& options, const Common& common) {
   const KeptRun kept = kept_run(directory, resolved);
   if (!options.force) {
     refuse_to_replace(kept, options.out);
-    refuse_files_of_others(directory, ours, "a new directory, an empty one, or --force to replace it");
+    refuse_files_of_others(directory, resolved, ours,
+                           "a new directory, an empty one, or --force to replace it");
   }
   const nlohmann::json j = kept.current() ? kept.summary : made_in(directory, resolved, common.quiet);
   nlohmann::json tables = tables_of_measures(options.out, resolved, measures, j);

@@ -90,13 +90,15 @@ const std::vector<std::string>& run_file_names() {
   return names;
 }
 
-void refuse_files_of_others(const fs::path& directory, const std::vector<std::string>& ours,
-                            const std::string& expected) {
+void refuse_files_of_others(const fs::path& directory, const ResolvedRun& run,
+                            const std::vector<std::string>& ours, const std::string& expected) {
   std::error_code error;
   const auto other = std::find_if(ours.begin(), ours.end(), [&](const std::string& name) {
     return fs::exists(fs::symlink_status(directory / name, error));
   });
   if (other == ours.end()) return;
+  if (const auto config = text_in(directory / config_name); config && config_text(run).starts_with(*config))
+    return;  // the machine stopped while it was written
   try {
     (void)read_config((directory / config_name).string());
     return;

@@ -39,9 +39,10 @@ struct KeptRun {
 };
 
 /// Refuses a directory that holds files of the names `ours`, but neither the settings nor the summary of a
-/// run: they are somebody else's. InputError, with what is expected, such as "a new directory".
-void refuse_files_of_others(const std::filesystem::path& directory, const std::vector<std::string>& ours,
-                            const std::string& expected);
+/// run, nor the beginning of these settings: they are somebody else's. InputError, with what is expected,
+/// such as "a new directory".
+void refuse_files_of_others(const std::filesystem::path& directory, const ResolvedRun& run,
+                            const std::vector<std::string>& ours, const std::string& expected);
 
 /// Looks at what `directory` holds of the run. Nothing that is found in it is an error: what cannot be read
 /// is not whole.

@@ -104,7 +104,7 @@ class Files {
  public:
   Files(const ResolvedRun& run, const std::filesystem::path& directory, const WrittenAs& written)
       : directory_(directory),
-        lock_(taken(directory)),
+        lock_(taken(run, directory)),
         rows_(directory / "series.csv"),
         series_(run, [this](std::string_view rows) { rows_.take(rows); }) {
     if (written.system.empty()) return;
@@ -122,9 +122,10 @@ class Files {
   }
 
  private:
-  static std::unique_ptr<DirectoryLock> taken(const std::filesystem::path& directory) {
+  static std::unique_ptr<DirectoryLock> taken(const ResolvedRun& run,
+                                              const std::filesystem::path& directory) {
     auto lock = take_output_directory(directory, "pfaff.run", names());
-    refuse_files_of_others(directory, names(), "a new directory or an empty one");
+    refuse_files_of_others(directory, run, names(), "a new directory or an empty one");
     return lock;
   }
   static std::vector<std::string> names() {

@@ -95,6 +95,9 @@ def test_measures_may_be_functions_of_the_run():
     assert len(caught.value.run.t) == 201
     with pytest.raises(pfaff.InputError, match="names of measures and functions"):
         pfaff.run(duffing, "verlet", step=0.05, time=10, measures=[3])
+    for twice, name in ([lambda run: run.t, lambda run: run.y[:, 0]], "lambda"), (["drift", "drift"], "drift"), ([half_speed, half_speed], "half-speed"):
+        with pytest.raises(pfaff.InputError, match=f"'{name}' is the name of 2 of them"):
+            pfaff.run(duffing, "verlet", step=0.05, time=10, measures=twice)
 
 
 def test_files_are_left(tmp_path):

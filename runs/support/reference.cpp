@@ -223,8 +223,10 @@ ReferenceSolution::ReferenceSolution(std::shared_ptr<const Model> model, Quad t0
       backwards_(duration < Quad(0)),
       end_(t0) {
   if (model_->facets().has(Facet::exact_solution)) {
-    exact_ = true;
-    return;
+    // A closed form may be for some starts only, as that of Kepler's ellipses, or end before the duration.
+    const std::vector<Quad> end = ExactSolution{model_, t0_, initial_}.after(duration);
+    exact_ = std::all_of(end.begin(), end.end(), [](const Quad& x) { return isfinite(x); });
+    if (exact_) return;
   }
   solve(duration);
 }

@@ -43,7 +43,7 @@ class ReferenceSolution {
   /// first of these is: the end of the domain of the formulas, a singularity, the time from which the two
   /// series agree in less than 20 digits, a million steps, 2^26 stored numbers (a gigabyte), the end of the
   /// budget of the thread, of which a step of either series spends one. BudgetSpent where that was asked to
-  /// stop.
+  /// stop. A closed form is taken for it where the model has one that is finite at the end.
   ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration);
 
   /// Refuses (InputError) a closed form that is beyond doubt, from its value and its rate at the start, not

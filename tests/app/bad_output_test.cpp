@@ -31,6 +31,20 @@ TEST(BadOutput, ADirectoryThatHoldsSomethingIsLeftAlone) {
   EXPECT_EQ(std::distance(fs::directory_iterator(files.path() / "kept"), {}), 1);
 }
 
+// Files that have the names of ours are somebody else's where no run has left them.
+TEST(BadOutput, FilesOfTheSameNamesAreLeftAlone) {
+  const TemporaryDirectory files;
+  fs::create_directories(files.path() / "thesis/measures");
+  write(files / "thesis/measures/2024.csv", "mine");
+  fs::create_directory(files.path() / "summary");
+  write(files / "summary/summary.json", "{\"mine\": 1}");
+  for (const char* name : {"thesis", "summary"})
+    expect_complaint(run_pfaff(pendulum_run_to(files / name)), 2,
+                     {"neither a config.toml nor a summary.json of a run", "--force"}, name);
+  EXPECT_EQ(text_of(files / "thesis/measures/2024.csv"), "mine");
+  EXPECT_EQ(text_of(files / "summary/summary.json"), "{\"mine\": 1}");
+}
+
 TEST(BadOutput, AnEmptyDirectoryIsTaken) {
   const TemporaryDirectory files;
   EXPECT_EQ(run_pfaff(pendulum_run_to(files.path().string())).status, 0);

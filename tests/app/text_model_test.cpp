@@ -27,6 +27,25 @@ TEST(TextModel, RunsAndRunsAgainFromItsConfiguration) {
   EXPECT_NE(changed.err.find("spring.toml has changed"), std::string::npos) << changed.err;
 }
 
+// Runs of an experiment are made of the file, whose initial state is a setting of theirs.
+TEST(TextModel, AnotherInitialStateDoesNotReplaceRuns) {
+  const TemporaryDirectory files;
+  write(files / "spring.toml", spring);
+  write(files / "one.toml",
+        "schema = 1\ntitle = \"One\"\n[[method]]\nlabel = \"V\"\nintegrator = \"verlet\"\n[[case]]\n"
+        "name = \"s\"\nsystem = \"spring.toml\"\ntime = \"1\"\nsteps = [\"0.1\"]\n");
+  const std::vector<std::string> compare{"compare", files / "one.toml", "--no-report", "--timing", "0.001",
+                                         "--out",   files / "out"};
+  const Outcome first = run_pfaff(compare);
+  ASSERT_EQ(first.status, 0) << first.err;
+  const std::string results = text_of(files / "out/results.csv");
+  std::string other = spring;
+  other.replace(other.find("[1, 0.2]"), 8, "[1, 0.3]");
+  write(files / "spring.toml", other);
+  expect_complaint(run_pfaff(compare), 2, {"spring.toml has changed", "--force"}, "compare");
+  EXPECT_EQ(text_of(files / "out/results.csv"), results);
+}
+
 TEST(TextModel, IsTakenWhereNamesAreTaken) {
   const TemporaryDirectory files;
   write(files / "spring.toml", spring);

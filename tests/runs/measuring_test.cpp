@@ -211,6 +211,52 @@ TEST(Measuring, CellsAreWrittenWithTheDigitsOfTheirColumns) {
   EXPECT_EQ(text_of(Cell(std::string("by, and")), {.name = "x", .kind = Column::Kind::text}), "by, and");
 }
 
+// Its columns have the names that it is given; a look leaves a text in the first of them.
+struct Named {
+  std::vector<std::string> names;
+  [[nodiscard]] std::vector<Column> columns(const Model& /*model*/) const {
+    if (names.empty()) throw std::runtime_error("no\nnames");
+    std::vector<Column> columns;
+    for (const std::string& name : names) columns.push_back({name});
+    return columns;
+  }
+  template <class T>
+  [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& /*run*/) const {
+    return {0, 4};
+  }
+  template <class T>
+  struct Work {
+    Work(const Named& /*measure*/, const Measured<T>& /*run*/) {}
+  };
+  template <class T>
+  bool look(const Measured<T>& /*run*/, const RunState<T>& at, Work<T>& /*work*/, Row& row) const {
+    row[0] = 1.0;
+    if (at.step > 0) row[0] = std::string("even");
+    return true;
+  }
+};
+
+TEST(Measuring, RefusesColumnsThatCannotStandInATable) {
+  static const Measure<Named> plugin{{.name = "named", .title = ""}};
+  const auto model = systems().get("harmonic-oscillator", "system").make({});
+  const auto method = integrators().get("verlet", "integrator").make({});
+  const auto refused = [&](const std::vector<std::string>& names) {
+    return detail::MeasureWith<Named>(plugin, Named{names}).refuses(*model, *method);
+  };
+  EXPECT_EQ(refused({"x", "y"}), "");
+  EXPECT_EQ(refused({"x", "x"}), "named has two columns 'x'");
+  EXPECT_EQ(refused({"x", "step"}),
+            "named has a column 'step', which every table of a measure has before its own");
+  EXPECT_EQ(refused({""}), "named has a column without a name");
+  EXPECT_EQ(refused({}), "named fails: no names");
+
+  const detail::MeasureWith<Named> texts(plugin, Named{{"x"}});
+  const auto tables =
+      measured(integrate("harmonic-oscillator", {}, "verlet", {}, {.step = "0.1"}), 10, {&texts});
+  EXPECT_EQ(tables[0].lines.size(), 1U);
+  EXPECT_EQ(tables[0].ended, "column x: expected a number, got 'even'");
+}
+
 TEST(Measuring, RefusesWhatIsNoMeasure) {
   const auto words_of = [](const std::string& text) -> std::string {
     try {

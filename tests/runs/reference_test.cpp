@@ -31,6 +31,18 @@ double componentwise_distance(const std::vector<Quad>& a, const std::vector<Quad
   return static_cast<double>(worst);
 }
 
+// The closed solution is that of ellipses; of other orbits series are taken, of which the energy is asked.
+TEST(Reference, OfAHyperbolaIsASeries) {
+  const auto kepler = model_named("kepler");
+  const std::vector<Quad> start{Quad(1), Quad(0), Quad(0), Quad(2)};
+  const ReferenceSolution open(kepler, Quad(0), start, Quad(1));
+  EXPECT_EQ(open.kind(), "30-digit");
+  const std::vector<Quad> z = open.at(Quad(1));
+  const Quad energy = (z[2] * z[2] + z[3] * z[3]) / Quad(2) - Quad(1) / sqrt(z[0] * z[0] + z[1] * z[1]);
+  EXPECT_LT(static_cast<double>(abs(energy - Quad(1))), 1e-29);
+  EXPECT_EQ(ReferenceSolution(kepler, Quad(0), start_of(*kepler), Quad(1)).kind(), "exact");
+}
+
 TEST(Reference, TaylorFlowAgreesWithEveryExactSolution) {
   int systems_seen = 0;
   for (const SystemPlugin* plugin : systems().all()) {

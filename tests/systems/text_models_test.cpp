@@ -130,6 +130,29 @@ TEST(TextModels, BeadsAndRodsMoveByEveryFormulation) {
   }
 }
 
+// What is written and zero takes nothing: no offset, friction or damping, and the energy is conserved.
+TEST(TextModels, WhatIsZeroTakesNothingFromTheEnergy) {
+  const pfaff::testing::TemporaryDirectory files;
+  const std::string skate =
+      "coordinates = [\"x\", \"y\", \"th\", \"px\", \"py\", \"pth\"]\ninitial = [0, 0, 0, 0, 0, 0.5]\n"
+      "kinetic = \"(px^2+py^2+pth^2)/2\"\npotential = \"-x\"\nvelocity_constraints = [{ name = \"edge\", row "
+      "= "
+      "[\"-sin(th)\", \"cos(th)\", \"0\"], b = ";
+  const std::string oscillator =
+      "coordinates = [\"q\", \"p\"]\nkinetic = \"p^2/2\"\npotential = \"q^2/2\"\ndamping = ";
+  const auto energy = [&](const std::string& text) {
+    std::ofstream(files / "model.toml") << text;
+    const auto model = system_named(files / "model.toml").make({});
+    EXPECT_EQ(model->invariants().at(0).name, "energy");
+    return std::pair{model->invariants()[0].behaviour, model->given(velocity_offsets)};
+  };
+  EXPECT_EQ(energy(skate + "0 }]\n"), std::pair(Behaviour::conserved, false));
+  EXPECT_EQ(energy(skate + "\"0*t\" }]\n"), std::pair(Behaviour::conserved, false));
+  EXPECT_EQ(energy(skate + "0.1 }]\n"), std::pair(Behaviour::free, true));
+  EXPECT_EQ(energy(oscillator + "0\n").first, Behaviour::conserved);
+  EXPECT_EQ(energy(oscillator + "0.1\n").first, Behaviour::free);
+}
+
 TEST(TextModels, BeadsAndRodsStartOnTheirSurface) {
   for (const auto& model : {text_model("bead-chain", {{"n", "7"}}), text_model("bead-ring", {{"n", "9"}})}) {
     const auto surface = make_evaluator<Quad>(model, constraints);
