@@ -104,7 +104,8 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   if (facts.jump < 0.01 * facts.rest || (facts.jump < 0.03 * facts.rest && !known))
     return bounded_throughout(facts, small_trend);
   if (facts.jump < gate * facts.rest) {
-    if (known) return undetermined(small_trend + told(", which has %.3g periods", facts.slowest));
+    if (known && facts.slowest >= 4)
+      return undetermined(small_trend + told(", which has %.3g periods", facts.slowest));
     return bounded_throughout(facts, small_trend);
   }
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
@@ -184,7 +185,9 @@ Verdict decide(const Facts& facts) {
       facts.shapes[facts.shape].parameter < 0.75)
     return undetermined(told("sublinear: like t^%.2g", facts.shapes[facts.shape].parameter));
   if (facts.white > std::max(facts.walk, facts.smooth - 5) - 6) {
-    if (facts.curve && facts.late_turns < 4 && facts.range_after_start > 0) return levelled(facts);
+    // A few periods of a regular oscillation have tried the method more than once.
+    if (facts.curve && facts.periods < 3 && facts.late_turns < 4 && facts.range_after_start > 0)
+      return levelled(facts);
     return bounded_throughout(facts, told("no trend: %.2g +- %.2g; oscillation %.2g", facts.slope.value,
                                           (facts.slope.high - facts.slope.low) / 2, facts.oscillation));
   }

@@ -27,7 +27,8 @@
 //     a trend beats noise by more than 4:
 //         A beats the trend by more than 2                     undetermined     goes on below if by < 2 %
 //         jump < 1 % of rest, or < 3 %, slope not known to 8 % bounded *
-//         jump < 1/f of rest, f < 8                            bounded *        undetermined, slope known to 8 %
+//         jump < 1/f of rest, f = 4 ... 8, slope known to 8 %  undetermined
+//         jump < 1/f of rest, f < 8                            bounded *
 //         no line, jump < rest: by 15 and .3 of rest, or       goes on below
 //         line, or power .75 ... 1.3:                          linear           no curve, rest > 12 % of jump
 //           jump < rest, and V is within 2 of the trend, or
@@ -41,7 +42,7 @@
 //     ... or < 22 %, and < 35 % after the first quarter        bounded **       levels off; n >= 96
 //     A beats every trend and noise by more than 6             undetermined     less than a period
 //     a trend of power < .75                                   undetermined     sublinear
-//     W > max(R, S - 5) - 6                                    bounded *        and ** where it is a curve
+//     W > max(R, S - 5) - 6                                    bounded *        a curve of < 3 swings: bounded **
 //     f >= 2, halves of the run share >= 75 % of the range     bounded *
 //     e swings 4 times between the outer thirds of its range,
 //       at regular times, halves share >= 60 % of the range    bounded *

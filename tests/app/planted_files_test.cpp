@@ -72,9 +72,12 @@ TEST_F(PlantedFiles, UnfinishedFilesAreMadeNew) {
     for (const char* file : {"config.toml", "series.csv", "summary.json"}) fs::remove(out / file);
   }
   // A link under the name of a finished file is replaced, not followed.
+  EXPECT_EQ(run_pfaff(planted_run_to(out)).status, 0);
+  fs::remove(out / "series.csv");
   fs::create_symlink(victim, out / "series.csv");
   EXPECT_EQ(run_pfaff(planted_run_to(out)).status, 0);
   EXPECT_EQ(text_of(victim.string()), "mine");
+  EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(out / "series.csv")));
 }
 
 TEST_F(PlantedFiles, ThereIsNoOtherFileOfOurOwn) {
