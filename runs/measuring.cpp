@@ -46,6 +46,8 @@ struct AtWork {
   }
   void look_at_the_end(std::int64_t step) {
     if (measuring == nullptr || !measuring->has_end()) return;
+    // Of a measure that looks at some states alone the rows say what was up to the last of them.
+    if (!measuring->sees_blocks() && !measuring->looks().empty()) step = measuring->looks().back();
     guarded([&] {
       for (Row& row : measuring->end()) add(step, std::move(row));
     });

@@ -201,5 +201,6 @@ const Measure<Frequency> registered{
          "method, over the same time: the phase that a method loses is this times the time. The change is "
          "that of the error from the first half of the time to the second. Cells are empty where the vector "
          "of the solution turns by more than a third of a turn between two looks.",
+     .version = 2,
      .over = Over::step}};
 }  // namespace

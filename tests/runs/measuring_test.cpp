@@ -196,6 +196,15 @@ TEST(Measuring, AFrequencySaysThatItsSolutionEnds) {
   const MeasuredTable whole = measured(run, 4, {frequency.get()}).front();
   EXPECT_EQ(whole.lines.size(), 1U);
   EXPECT_EQ(whole.ended, "");
+
+  // The row stands at the end of what was compared, also beside a measure that goes on to the end of the run.
+  const auto beginning = measure_asked_for("frequency(x=q, y=p, time=0.25)"),
+             drift = measure_asked_for("drift");
+  const auto both = measured(integrate("harmonic-oscillator", {}, "verlet", {}, {.step = "0.125"}), 8,
+                             {beginning.get(), drift.get()});
+  ASSERT_EQ(both[0].lines.size(), 1U) << both[0].ended;
+  EXPECT_EQ(both[0].lines[0].step, 2);
+  EXPECT_EQ(both[1].lines[0].step, 8);
 }
 
 TEST(Measuring, EndsWithTheBudget) {
