@@ -42,7 +42,7 @@
 //     ... or < 22 %, and < 35 % after the first quarter        bounded **       levels off; n >= 96
 //     A beats every trend and noise by more than 6             undetermined     less than a period
 //     a trend of power < .75                                   undetermined     sublinear
-//     W > max(R, S - 5) - 6                                    bounded *        a curve of < 3 swings: bounded **
+//     W > max(R, S - 5) - 6                                    bounded *        a curve of < 3 swings: **
 //     f >= 2, halves of the run share >= 75 % of the range     bounded *
 //     e swings 4 times between the outer thirds of its range,
 //       at regular times, halves share >= 60 % of the range    bounded *
