@@ -18,8 +18,8 @@
 //     e = 0 throughout                                         exact
 //     n < 32                                                   undetermined
 //     max <= u M + 8 u R sqrt(N)                               round-off
-//     at most min(n/4, 40) values, 4 u M apart or less         round-off        at most 4 values, or no trend and
-//                                                                               max <= 4 times what is above
+//     at most 4 values, 4 u M apart or less                    round-off
+//     ... min(n/4, 40), max <= 4 times the bound above         round-off        no trend
 //     maxima of twentieths of the run grow exponentially       exponential
 //     the spread grows threefold and exceeds jump/4            exponential, linear, polynomial, by its fit
 //     means move < 10 % in the second half                     bounded **       levels off; n >= 96
