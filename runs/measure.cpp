@@ -1,7 +1,6 @@
 #include <pfaff/runs/measure.hpp>
 
 #include <algorithm>
-#include <array>
 #include <new>
 
 #include <pfaff/core/errors/budget.hpp>
@@ -27,13 +26,12 @@ std::string MeasureInstance::called() const {
 }
 
 namespace {
-// What is wrong with the names of columns, which stand behind those of the run in every table; or empty.
+// What is wrong with the names of columns; or empty.
 std::string wrong_names(const std::vector<Column>& columns) {
-  constexpr std::array of_the_run{"case", "method", "step", "t"};
   for (auto column = columns.begin(); column != columns.end(); ++column) {
     const std::string& name = column->name;
     if (name.empty()) return "has a column without a name";
-    if (std::find(of_the_run.begin(), of_the_run.end(), name) != of_the_run.end())
+    if (std::find(columns_of_the_run.begin(), columns_of_the_run.end(), name) != columns_of_the_run.end())
       return "has a column '" + name + "', which every table of a measure has before its own";
     if (std::any_of(columns.begin(), column, [&](const Column& other) { return other.name == name; }))
       return "has two columns '" + name + "'";

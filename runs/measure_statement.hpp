@@ -2,6 +2,7 @@
 // answer is known.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <variant>
@@ -20,6 +21,9 @@ struct Column {
   Kind kind = Kind::number;
   int digits = 0;  // that its numbers are written with; 0: all that the run's precision has
 };
+
+/// The names of the columns that the joined tables of an experiment have before those of a measure.
+inline constexpr std::array columns_of_the_run{"case", "method", "step", "t"};
 
 /// A number, which leaves its cell empty where it is not finite, or a text.
 using Cell = std::variant<double, Quad, std::string>;

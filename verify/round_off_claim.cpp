@@ -13,9 +13,9 @@ namespace pfaff {
 
 namespace {
 
-// The time in which the linearised motion turns or grows by one: 1/sqrt |J^2| of the Jacobian J of the field.
-// In steps of more than that roundings of what a step solves for have a bias, as those of `gauss` on an
-// oscillator from omega h = 1 on.
+// `time`, or where that is shorter the time in which the linearised motion turns or grows by one: 1/sqrt
+// |J^2| of the Jacobian J of the field. In longer steps roundings of what a step solves for have a bias, as
+// those of `gauss` on an oscillator from omega h = 1 on.
 Real at_most_linear(const Real& time, const Model& model, const Real& t, const std::vector<Real>& state) {
   const std::size_t n = state.size();
   std::vector<double> z, jacobian(n * n);

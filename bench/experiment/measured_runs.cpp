@@ -89,10 +89,11 @@ std::string why(const MeasureInstance& measure, const ExperimentCase& one,
 }  // namespace
 
 Columns columns_before_measures(const std::string& time_unit) {
-  return {{.name = "case", .kind = Column::Kind::text},
-          {.name = "method", .kind = Column::Kind::text},
-          {"step", time_unit},
-          {"t", time_unit}};
+  const auto& [one, method, step, t] = columns_of_the_run;
+  return {{.name = one, .kind = Column::Kind::text},
+          {.name = method, .kind = Column::Kind::text},
+          {step, time_unit},
+          {t, time_unit}};
 }
 
 void write_measures(const fs::path& directory, const Experiment& experiment,

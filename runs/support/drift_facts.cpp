@@ -201,11 +201,7 @@ void scores_of(const windows::Windows& seen, double resolution, const Series& se
   const windows::Scores modulated(seen.mean, resolution, shape_resolution, squares);
   facts.modulation = noise_of(modulated);
   if (modulated.best() <= alone.best() + modulation_gain) return;
-  // Squares that rise or fall like a line tell no slope beside it: one that moves by more than e does is
-  // none.
-  const windows::Slope slope = windows::Scores(seen.mean, resolution, 0, squares).slope();
-  if (std::abs(slope.value) > facts.range) return;
-  facts.slope = slope;
+  facts.slope = windows::Scores(seen.mean, resolution, 0, squares).slope();
   compare(modulated, series, facts);
 }
 
