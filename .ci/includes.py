@@ -109,7 +109,7 @@ def cycles(arrows):
 # Headers that many others include, in the sets that are precompiled: a header that includes all of a set, directly or
 # through others, is compiled after it. That shows as much as compiling it after nothing, because it has the set anyway
 # and each header of the set is compiled by itself too. The first set that fits is taken.
-PRECOMPILED = [["core/integrator.hpp", "bench/runner/json.hpp"], ["core/integrator.hpp"], ["core/facets/model.hpp"],
+PRECOMPILED = [["core/facets/method_instance.hpp", "bench/runner/json.hpp"], ["core/facets/method_instance.hpp"], ["core/facets/model.hpp"],
                ["bench/runner/json.hpp"], ["core/tape/recorder.hpp"], ["core/numbers/real.hpp"]]
 
 

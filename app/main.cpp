@@ -21,7 +21,7 @@
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/core/bracket.hpp>
 #include <pfaff/core/errors/budget.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/registry/version.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/text/source.hpp>

@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 
 namespace pfaff::app {
 

@@ -56,7 +56,7 @@ set_target_properties(pfaff_python PROPERTIES
   OUTPUT_NAME _pfaff PREFIX "" SUFFIX ".${Python_SOABI}.so" LIBRARY_OUTPUT_DIRECTORY ${pfaff_python_package}
   # The objects of pybind11 are hidden; two modules of it would otherwise share what each has for itself.
   CXX_VISIBILITY_PRESET hidden)
-target_precompile_headers(pfaff_python PRIVATE <pybind11/numpy.h> <pybind11/stl.h> <pfaff/core/system.hpp> <pfaff/core/integrator.hpp>)
+target_precompile_headers(pfaff_python PRIVATE <pybind11/numpy.h> <pybind11/stl.h> <pfaff/core/system.hpp> <pfaff/core/facets/method_instance.hpp>)
 
 # What is imported before it, and says where the machine lacks instructions that the libraries are compiled for. Loading
 # them would end the interpreter.

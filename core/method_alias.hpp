@@ -9,7 +9,7 @@
 
 #include <mutex>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 
 namespace pfaff {
 

@@ -1,7 +1,7 @@
 // The registries of the four kinds of plug-ins.
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace pfaff {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace pfaff {

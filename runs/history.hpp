@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 
 namespace pfaff {
 

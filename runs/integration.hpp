@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/block.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/runs/outcome.hpp>
 #include <pfaff/runs/start.hpp>
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/measure.hpp>
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace pfaff {

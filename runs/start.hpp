@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 
 namespace pfaff {
 

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/tape/tape.hpp>
 
 namespace pfaff {

@@ -10,7 +10,7 @@
 
 #include <pfaff/bench/studies/options.hpp>
 #include <pfaff/core/bracket.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/measure.hpp>
 #include <pfaff/runs/motion.hpp>

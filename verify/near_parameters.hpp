@@ -3,7 +3,7 @@
 #pragma once
 
 #include <pfaff/core/bracket.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace pfaff {

@@ -1,8 +1,8 @@
 // Steps of the methods for velocity constraints on the registered path, beside Runge-Kutta steps of the
 // formulation `nonholonomic`, whose field makes the same projections.
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "cases.hpp"

@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/model.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 

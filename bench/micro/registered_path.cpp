@@ -1,5 +1,5 @@
 // The methods as the programs of Pfaff run them: found by name, with one indirect call for each formula.
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "cases.hpp"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <stdexcept>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/core/system.hpp>
 

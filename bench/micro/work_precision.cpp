@@ -14,8 +14,8 @@
 #include <memory>
 
 #include <pfaff/core/facets/advance.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 

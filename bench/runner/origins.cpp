@@ -11,8 +11,8 @@
 
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/core/bracket.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/native/compiler.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/process/checksum.hpp>

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <pfaff/bench/runner/origins.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/integration.hpp>
 #include <pfaff/runs/support/setback.hpp>

@@ -1,7 +1,7 @@
 #include <cmath>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/derive/tuning/tuned_splitting.hpp>
 #include <pfaff/runs/integrate.hpp>
 

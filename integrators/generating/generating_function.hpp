@@ -30,7 +30,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/integrators/generating/correction_matrix.hpp>
 #include <pfaff/integrators/generating/correction_without_matrix.hpp>
 #include <pfaff/integrators/generating/expected_change.hpp>

@@ -25,7 +25,7 @@
 #include <type_traits>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/integrators/generating/alpha_gradient.hpp>
 #include <pfaff/integrators/generating/generating_map_check.hpp>
 #include <pfaff/integrators/support/beside_rounding.hpp>

@@ -13,6 +13,7 @@
 #include <boost/numeric/odeint/stepper/runge_kutta_dopri5.hpp>
 #include <boost/numeric/odeint/stepper/symplectic_rkn_sb3a_mclachlan.hpp>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/integrators/odeint/odeint_containers.hpp>
 
 namespace {

@@ -10,6 +10,7 @@
 #include <boost/numeric/odeint/stepper/modified_midpoint.hpp>
 #include <span>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/integrators/odeint/odeint_containers.hpp>
 
 namespace {

@@ -17,7 +17,7 @@
 #include <limits>
 #include <span>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 
 namespace pfaff {
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/tape.hpp>
 

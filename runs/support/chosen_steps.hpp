@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 
 namespace pfaff {
 

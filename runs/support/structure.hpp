@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/runs/support/congruence.hpp>
 
 namespace pfaff {

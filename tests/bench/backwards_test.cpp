@@ -8,7 +8,7 @@
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/record.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/runs/motion.hpp>
 
 #include "../temporary_directory.hpp"

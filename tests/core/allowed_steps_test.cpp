@@ -6,7 +6,7 @@
 #include <atomic>
 
 #include <pfaff/core/errors/budget.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace {

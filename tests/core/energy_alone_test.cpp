@@ -3,8 +3,8 @@
 // offer one.
 #include <gtest/gtest.h>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace {

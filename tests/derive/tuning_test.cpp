@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/problem.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/derive/tuning/tuned_splitting.hpp>
 
 #include "splittings.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace pfaff::fuzz {

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace pfaff::testing {

@@ -2,7 +2,7 @@
 // on every system that fits, in double and quad.
 #include <gtest/gtest.h>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/tables/method_table.hpp>
 #include <pfaff/runs/motion.hpp>

@@ -6,7 +6,7 @@
 #include <functional>
 #include <numbers>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "adaptive_samples.hpp"

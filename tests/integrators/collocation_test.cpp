@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/runge_kutta/collocation_coefficients.hpp>
 #include <pfaff/integrators/runge_kutta/stage_convergence.hpp>

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/generating/generating_map_check.hpp>
 #include <pfaff/runs/support/structure.hpp>

@@ -3,7 +3,7 @@
 // 32.
 #include <gtest/gtest.h>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/support/structure.hpp>
 

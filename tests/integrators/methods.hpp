@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/runs/integration.hpp>
 
 #include "../formula_values.hpp"

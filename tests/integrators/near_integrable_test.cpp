@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/numbers/dual.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/splitting/near_integrable_schemes.hpp>

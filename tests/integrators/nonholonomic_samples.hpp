@@ -1,9 +1,9 @@
 // Models and runs that the tests of methods for velocity constraints share.
 #pragma once
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/problem.hpp>
 #include <pfaff/core/formulation.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/tests/formulations/velocity_systems.hpp>
 
 #include "../golden_numbers.hpp"

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 namespace {

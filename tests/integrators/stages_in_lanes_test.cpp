@@ -5,8 +5,8 @@
 #include <cfenv>
 #include <cmath>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/runge_kutta/gauss.hpp>
 #include <pfaff/integrators/support/in_chart.hpp>

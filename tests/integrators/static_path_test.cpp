@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/facets/static_problem.hpp>
-#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/generating/generating_function.hpp>
 #include <pfaff/integrators/runge_kutta/explicit_runge_kutta.hpp>

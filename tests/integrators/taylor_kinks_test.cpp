@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/numbers/special.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/kinks.hpp>

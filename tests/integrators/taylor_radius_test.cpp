@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "adaptive_samples.hpp"

@@ -8,7 +8,7 @@
 
 #include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/facets/block.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/motion.hpp>
 #include <pfaff/verify/falsification/many_steps.hpp>

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "measured_table.hpp"

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 
 #include "../formula_values.hpp"

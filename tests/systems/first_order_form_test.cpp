@@ -2,7 +2,7 @@
 // written by F and B, and what is refused because it does not fit together.
 #include <gtest/gtest.h>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/runs/support/structure.hpp>
 #include <pfaff/verify/check.hpp>

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/runs/integration.hpp>

@@ -6,7 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
+#include <pfaff/core/solve/summation.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/integrators/runge_kutta/gauss_coefficients.hpp>
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/verify/check_budget.hpp>
 

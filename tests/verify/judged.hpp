@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 #include <pfaff/verify/check.hpp>
 
 namespace pfaff::testing {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/verify/method_on_model.hpp>
 #include <pfaff/verify/step_scale.hpp>
 

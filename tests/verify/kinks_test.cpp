@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 
 #include "judged.hpp"

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <random>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/verify/check.hpp>
 #include <pfaff/verify/round_off_growth.hpp>
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <pfaff/core/integrator.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/verify/check.hpp>
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/claims.hpp>
-#include <pfaff/core/integrator.hpp>
+#include <pfaff/core/facets/method_instance.hpp>
 
 namespace pfaff {
 
