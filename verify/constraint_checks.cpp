@@ -69,8 +69,9 @@ Check initial_residual(const std::string& name, const Model& model, const char* 
   for (std::size_t k = 0; k < values.size(); ++k) {
     const auto size = static_cast<double>(abs(values[k]));
     const double allowed = allowed_roundings * static_cast<double>(unit * rounded[k]);
-    const bool no_worse = k > 0 && size * worst_allowed <= worst * allowed;
-    if (no_worse || std::isnan(worst)) continue;
+    // Of a residual of zero, of which nothing is rounded, every other one is the worse.
+    const bool nothing = worst == 0 && worst_allowed == 0;
+    if (std::isnan(worst) || (!nothing && size * worst_allowed <= worst * allowed)) continue;
     worst = size, worst_allowed = allowed;
     which = model.constraint_names()[k];
   }

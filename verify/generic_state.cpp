@@ -31,11 +31,10 @@ std::vector<Real> generic_state(const Model& model) {
   const std::vector<double> scales = coordinate_scales(model);
   for (std::size_t k = 0; k < z.size(); ++k) {
     const auto i = static_cast<std::int64_t>(k);
-    // Offsets that grow with the index would tear systems of many bodies apart, so they repeat with
-    // constraints, and where they are parts of a coordinate's own size.
-    const std::int64_t amount = model.restricted() || scales[k] != 1 ? i % 5 : i;
+    // Offsets that grow with the index would tear systems of many bodies apart, so they repeat.
+    const std::int64_t amount = i % 5;
     const Real offset = Real::fraction(i % 2 == 0 ? 7 + 2 * amount : -5 - 3 * amount, 101);
-    z[k] = z[k] + (scales[k] == 1 ? offset : Real(Quad(scales[k])) * offset);
+    z[k] = z[k] + Real(Quad(scales[k])) * offset;
     if (k < model.coordinates().size()) z[k] = inside(model.coordinates()[k].range, model.initial()[k], z[k]);
   }
   if (model.restricted()) {
@@ -128,6 +127,23 @@ Region region_of(const Model& motion, std::vector<Real> centre) {
   const auto time = static_cast<double>(own_time(motion, t, region.centres.front()));
   const int states = 1 + static_cast<int>(std::log2(own_times_followed(motion)));
   for (const double direction : {1.0, -1.0}) add_states(region, motion, t.value(), direction * time, states);
+  return region;
+}
+
+Region with_branches_of(const Tape& formula, Region region) {
+  constexpr double times = 4;
+  const bool branches = std::any_of(formula.code.begin(), formula.code.end(),
+                                    [](const Instruction& i) { return i.operation == Operation::select; });
+  if (!branches || !region.box.empty() || region.surface != nullptr) return region;
+  for (std::size_t k = 0; k < region.centres.front().size(); ++k) {
+    double smallest = region.centres.front()[k].value(), largest = smallest;
+    for (const std::vector<Real>& centre : region.centres) {
+      smallest = std::min(smallest, centre[k].value());
+      largest = std::max(largest, centre[k].value());
+    }
+    const double middle = (smallest + largest) / 2, reach = times * (largest - smallest) / 2;
+    region.box.push_back(reach > 0 ? Range{middle - reach, middle + reach} : unbounded);
+  }
   return region;
 }
 

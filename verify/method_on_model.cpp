@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <pfaff/runs/history.hpp>
+#include <pfaff/verify/claim_checks.hpp>
 
 namespace pfaff {
 
@@ -49,8 +50,16 @@ MethodOnModel::MethodOnModel(const MethodInstance& method, const Assignments& pa
       failure_ = in_double_->jacobian().status;
       if (failure_ == Status::converged) failure_ = in_quad_->jacobian().status;
     }
-    if (failure_ == Status::converged) return;
+    if (failure_ == Status::converged && ways_back_converge()) return;
   }
+}
+
+bool MethodOnModel::ways_back_converge() {
+  const auto converge = [this](Claim claim, const auto& residual) {
+    return !claims(claim) || !(std::isnan(residual(*in_double_)) || std::isnan(residual(*in_quad_)));
+  };
+  return converge(Claim::symmetric, [](auto& step) { return symmetry_residual(step); }) &&
+         converge(Claim::reversible, [](auto& step) { return reversibility_residual(step); });
 }
 
 bool MethodOnModel::claims(Claim claim) const {

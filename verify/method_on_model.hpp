@@ -41,7 +41,8 @@ class MethodOnModel {
   /// several states that such a method is.
   [[nodiscard]] bool history() const { return history_; }
   /// The size of the step on which claims are measured: check_step in the system's own time, halved until the
-  /// step and its derivative converge in double and in quad. `steps()` is false where none did.
+  /// step, its derivative and the ways back that the method claims converge in double and in quad. `steps()`
+  /// is false where no step did.
   [[nodiscard]] const Real& step_size() const { return step_size_; }
   [[nodiscard]] bool steps() const { return failure_ == Status::converged; }
   /// By how much the round-off of a step is more than that of a short method. A composition has a sub-step
@@ -72,6 +73,8 @@ class MethodOnModel {
                  double value, double limit) const;
 
  private:
+  [[nodiscard]] bool ways_back_converge();
+
   const MethodInstance& method_;
   Assignments parameters_;
   std::string system_;

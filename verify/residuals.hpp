@@ -97,6 +97,11 @@ int own_times_followed(const Model& motion);
 /// coordinates state; a motion on constraints has none, since the states of a box are not on them.
 Region region_of(const Model& motion, std::vector<Real> centre);
 
+/// The region with a box about what the motion reaches, four times as large, where a formula has branches and
+/// no ranges are stated. A formula without branches that holds near the motion holds wherever it has values,
+/// because it is analytic; a branch that the motion does not take shows beyond alone.
+Region with_branches_of(const Tape& formula, Region region);
+
 // Random states near the centres of a region, drawn with a fixed seed. Near the first one each coordinate is
 // within 1/20 of its scale and the time near one; near the others within 1/20 or, of every other state, a
 // half of itself, so that it keeps its sign. The last ones are anywhere in the box, but near the first centre

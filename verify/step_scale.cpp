@@ -13,8 +13,9 @@ namespace pfaff {
 namespace {
 // The field of a constrained motion may be a formula of a million operations.
 constexpr std::size_t few_coordinates = 16, few_operations = 8192;
-// Rates between 1/ordinary_rates and ordinary_rates are taken as one; others are brought to ordinary_rate.
-constexpr double ordinary_rates = 32, ordinary_rate = 8;
+// Rates between 1/ordinary_rate and ordinary_rate are taken as one; others are brought to the nearer of
+// these.
+constexpr double ordinary_rate = 8;
 constexpr int degrees = 10;
 
 TaylorExpansion<Quad> expanded(const Model& motion, const Real& t, const std::vector<Real>& z) {
@@ -86,8 +87,22 @@ std::vector<double> coordinate_scales(const Model& model) {
 }
 
 std::string differing_sizes(const Model& model) {
-  constexpr int most = 10;
-  const std::vector<double> scales = coordinate_scales(model);
+  constexpr int most = 4;
+  std::vector<double> scales = coordinate_scales(model);
+  if (model.moves() && is_short(model)) {
+    // A coordinate that starts small becomes as large as the motion makes it in its own time.
+    const std::size_t n = scales.size();
+    const auto expansion = expanded(model, generic_time_of(model), model.initial());
+    const double rate = largest_rate(expansion, 6, coordinate_scales(model.initial()));
+    double power = 1;
+    for (int degree = 1; degree <= degrees && rate > 0; ++degree) {
+      power /= rate;
+      for (std::size_t k = 0; k < n; ++k) {
+        const Quad term = expansion.coefficients()[static_cast<std::size_t>(degree) * n + k];
+        scales[k] = std::max(scales[k], std::abs(static_cast<double>(term)) * power);
+      }
+    }
+  }
   const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
   const double power = std::log2(*largest / *smallest);
   if (power <= most) return {};
@@ -98,7 +113,7 @@ Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
   if (!is_short(motion)) return Quad(1);
   // The size of a term of high degree tells the rate whatever the sizes of single coordinates are.
   const double rate = largest_rate(expanded(motion, t, z), 6, coordinate_scales(z));
-  if (rate == 0 || (rate <= ordinary_rates && rate >= 1 / ordinary_rates)) return Quad(1);
+  if (rate == 0 || (rate <= ordinary_rate && rate >= 1 / ordinary_rate)) return Quad(1);
   const double nearest = rate > 1 ? ordinary_rate : 1 / ordinary_rate;
   return Quad(std::exp2(-std::round(std::log2(rate / nearest))));
 }

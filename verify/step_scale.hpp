@@ -24,8 +24,7 @@ auto largest_of(const State& z) {
 }
 
 /// How far the coordinates of a system are from one, at a state near `centre`, as powers of two: the size of
-/// each coordinate there, or that of the largest one for coordinates that are zero. Sizes within a factor of
-/// 64 of one are taken as one, so that offsets and steps of ordinary systems are the same for all of them.
+/// each coordinate there, or that of the largest one for coordinates that are zero.
 std::vector<double> coordinate_scales(const std::vector<Real>& centre);
 /// The same at a state z at time t, with better sizes for coordinates that are zero: what the motion from
 /// there makes of each in its own time, by the Taylor series, and at least a 64th of what it would make of it
@@ -36,9 +35,9 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
 /// Those at the initial state of a model, by its motion where it has one.
 std::vector<double> coordinate_scales(const Model& model);
 
-/// "sizes of coordinates differ by 2^k" where they do by more than 2^10 at the initial state of a model, else
-/// nothing. Methods that add positions to momenta, which are of different units, cannot be judged there: what
-/// they add swamps the smaller ones at every step size.
+/// "sizes of coordinates differ by 2^k" where they do by more than 2^4 along the motion from the initial
+/// state of a model, else nothing. Methods that add positions to momenta, which are of different units,
+/// cannot be judged there: what they add swamps the smaller ones at every step size.
 std::string differing_sizes(const Model& model);
 
 /// True where the field of a motion is a formula so short that series and bounds of rounding errors of it are
@@ -46,7 +45,7 @@ std::string differing_sizes(const Model& model);
 bool is_short(const Model& motion);
 
 /// The time in which the motion from z at t changes by about its own size, as a power of two and from the
-/// Taylor series of the motion; rates between 1/32 and 32 are taken as one, so that steps are the same for
+/// Taylor series of the motion; rates between 1/8 and 8 are taken as one, so that steps are the same for
 /// all ordinary systems. One where the motion is not is_short.
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z);
 

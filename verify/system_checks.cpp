@@ -3,6 +3,7 @@
 // fixed seed.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
@@ -27,20 +28,23 @@ Check varies(const std::string& system, const std::string& invariant,
   NearbyStates<Quad> states(region);
   Replay<W> replay(values);
   std::vector<W> out(values->outputs.size());
-  W first;
+  std::optional<W> first;
   double largest = 0;
   for (int j = 0; j < points; ++j) {
     Quad time;
     const std::vector<Quad>& z = states.next(time);
     // At one time, since an invariant may depend on it.
     replay(W(Quad(1)), std::vector<W>(z.begin(), z.end()).data(), out.data());
-    if (j == 0) first = out[k];
-    largest = std::max(largest, relative_to_rounding(out[k] - first));
+    if (!isfinite(out[k].value)) continue;
+    if (!first) first = out[k];
+    largest = std::max(largest, relative_to_rounding(out[k] - *first));
   }
   Check check = named(system, invariant + " varies", system, "quad", largest, 0);
   check.expected = residual_tolerance<Quad>();
   check.result = largest > check.expected ? CheckResult::pass : CheckResult::fail;
-  if (check.result == CheckResult::fail) check.reason = "the same at every state, so that it says nothing";
+  if (check.result == CheckResult::fail)
+    check.reason =
+        first ? "the same at every state, so that it says nothing" : "it has no value near the initial state";
   return check;
 }
 
@@ -53,7 +57,7 @@ void never_positive(std::vector<Check>& checks, const std::string& name, const s
         const Recorded r = evaluate(*forbidden, t, z)[0];
         out[0] = select(r, r, Recorded(0));
       });
-  both(checks, name, claim, name, positive, region);
+  both(checks, name, claim, name, positive, with_branches_of(*forbidden, region));
   // Along a motion a constant has no other sign.
   if (!is_short(*motion.model()) || (forbidden->state_independent() && forbidden->autonomous())) return;
   const auto& domain = region.domain != nullptr ? region.domain : forbidden;
@@ -81,7 +85,7 @@ void invariants(std::vector<Check>& checks, const std::string& name, FollowedMot
         checks.push_back(varies(name, list[k].name, values, k, region));
       if (list[k].quadratic)
         both(checks, name, list[k].name + " is quadratic", name, third_difference(*values, k), region);
-      both(checks, name, "conserves " + list[k].name, name, rate, region);
+      both(checks, name, "conserves " + list[k].name, name, rate, with_branches_of(*rate, region));
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
       const auto forbidden = expression(n, 1, [&](const Recorded& t, Arguments z, Results out) {

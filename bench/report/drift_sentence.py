@@ -25,7 +25,7 @@ def losing(verdict):
         return []
     near = {r.label: min(r.curve.measured(), key=lambda p: abs(math.log(p.error / verdict.target))).run for r in best[:2]}
     lost = [r for r in best[:2] if verdict.class_of(near[r.label])[1]
-            and near[r.label].drift(verdict.invariant, "max") > verdict.rounding(near[r.label])]
+            and not verdict.of_rounding(r.curve, near[r.label])]
     if not lost:
         return []
     kinds = dict.fromkeys(verdict.class_of(near[r.label])[0] for r in lost)
@@ -112,7 +112,7 @@ def moving(verdict, rows):
     """What the rows let the quantity do: by class of drift, or against its direction; round-off that adds up comes last."""
     if verdict.expected in DIRECTIONS:
         return [f"{some(rows)} {'lets' if len(rows) == 1 else 'let'} it {DIRECTIONS[verdict.expected][1]}"]
-    kinds, small = {}, [r for r in rows if r.drift <= verdict.rounding(r.run)]
+    kinds, small = {}, [r for r in rows if verdict.of_rounding(r.curve, r.run)]
     for row in rows:
         if row not in small:
             kinds.setdefault(row.drift_class, []).append(row)

@@ -25,6 +25,8 @@ TARGETS = (1e-3, 1e-6, 1e-9, 1e-12)
 LEAD = 1e-6
 TIE = 1.1
 EQUAL = 1.25  # costs that differ by less than this factor are called equal
+APART = 1.5  # times a step, from which on another step is larger
+FALLEN = 4  # times a drift, from which on it falls with the step; of a random walk that doubles the steps it grows 1.4-fold
 
 
 @dataclasses.dataclass(eq=False)
@@ -141,10 +143,20 @@ class Verdict:
     def reach(self):
         return reach(self.experiment, self.case)
 
-    def rounding(self, run):
-        """What round-off may add up to in a run: GROWN units of the quantity at the start; zero where that is not known."""
+    def of_rounding(self, curve, run):
+        """Whether the drift of a run is round-off: GROWN units of the quantity at the start at most, and no less than in the run of the
+        method with the next larger step, or no more than in that with the next smaller one. What truncation does falls with the step,
+        whatever the size of the quantity, such as a rest energy; of a method with a run at one step alone it is not known."""
         series = self.experiment.series(run, self.invariant)
-        return GROWN * self.unit * abs(series.initial) if series and math.isfinite(series.initial) else 0.0
+        own = run.drift(self.invariant, "max")
+        if not series or not own <= GROWN * self.unit * abs(series.initial):
+            return False
+        size = (lambda r: r.tolerance) if curve.adaptive else (lambda r: r.step)
+        others = [(size(p.run) / size(run), d) for p in curve.points if not math.isnan(d := p.run.drift(self.invariant, "max"))]
+        coarser = min(((ratio, d) for ratio, d in others if ratio >= APART), default=None)
+        finer = max(((ratio, d) for ratio, d in others if ratio <= 1 / APART), default=None)
+        falls = [coarser and coarser[1] >= FALLEN * own, finer and finer[1] <= own / FALLEN]
+        return any((coarser, finer)) and not any(falls)
 
     def residual(self, row, level):
         """The largest residual of a level of constraints at equal cost, of an ensemble the median over its seeds; nan where

@@ -17,6 +17,13 @@ namespace pfaff {
 template <class V>
 struct Kink {
   V before, behind;
+  std::size_t condition = 0;  // whose sign it is, its slot on the tape
+  bool positive = false;      // before
+  /// True where another kink is the change of the same condition from the same sign: a motion that has gone
+  /// through the other one has not arrived on its far side.
+  [[nodiscard]] bool repeats(const std::optional<Kink>& other) const {
+    return other && other->condition == condition && other->positive == positive;
+  }
 };
 
 /// Looks for the kinks of one field.
@@ -54,8 +61,7 @@ class Kinks {
           (changed(middle) ? behind : before) = middle;
         }
         if (!found || abs(behind) < abs(found->behind)) {
-          found = Kink<V>{before, behind};
-          condition_ = slot;
+          found = Kink<V>{before, behind, slot, positive};
         }
         end = behind;
         break;
@@ -64,16 +70,16 @@ class Kinks {
     return found;
   }
 
-  /// The time s of the last kink found as a number of T: its derivatives are those of the time at which the
+  /// The time s about which a kink lies as a number of T: its derivatives are those of the time at which the
   /// condition is zero.
-  [[nodiscard]] T time(const SeriesReplay<T>& series, const V& s) const {
+  [[nodiscard]] T time(const SeriesReplay<T>& series, const Kink<V>& kink, const V& s) const {
     if constexpr (std::is_same_v<T, V>) {
       return s;
     } else {
       T sum(0), slope(0);
       for (std::size_t l = series.levels(); l-- > 0;) {
         slope = slope * T(s) + sum;
-        sum = sum * T(s) + series.coefficient(condition_, l);
+        sum = sum * T(s) + series.coefficient(kink.condition, l);
       }
       const V rate = value_of(slope);
       return rate == V(0) ? T(s) : T(s) - (sum - T(value_of(sum))) / T(rate);
@@ -89,7 +95,6 @@ class Kinks {
     return sum;
   }
   std::vector<std::size_t> conditions_;  // slots
-  std::size_t condition_ = 0;            // that of the last kink found
 };
 
 }  // namespace pfaff

@@ -55,8 +55,10 @@ class TaylorExpansion {
     if (kinks_.none()) return {};
     return kinks_.first(series_, h);
   }
-  /// The time s of the last kink found, with its derivatives.
-  [[nodiscard]] T time_of_kink(const Value<T>& s) const { return kinks_.time(series_, s); }
+  /// The time s about which a kink lies, with the derivatives of the time of the kink.
+  [[nodiscard]] T time_of_kink(const Kink<Value<T>>& kink, const Value<T>& s) const {
+    return kinks_.time(series_, kink, s);
+  }
   /// Component k of z(s) - z(0).
   [[nodiscard]] T increment(const T& s, std::size_t k) const {
     T sum = coefficients_[order_ * n_ + k];

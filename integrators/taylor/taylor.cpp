@@ -85,16 +85,27 @@ struct Taylor {
   template <HasFieldTape P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
+    using V = Value<T>;
     T rest = h;
+    std::optional<Kink<V>> last;
+    V repeated(0);  // the length of the last piece, where that went through a kink once more
     for (int piece = 0; piece < most_kinks; ++piece) {
       ++p.counters().fields;
       w.expansion.expand(t + (h - rest), z.data());
       const auto kink = w.expansion.first_kink(value_of(rest));
       if (kink && piece == 0) w.begin = z, w.carry_at_begin = w.carry;
-      const T s = kink ? w.expansion.time_of_kink(kink->behind) : rest;
+      T s = rest;
+      V end = value_of(rest);
+      if (kink) {
+        repeated = kink->repeats(last) ? longer(*kink, repeated, value_of(rest), value_of(t)) : V(0);
+        if (abs(repeated) > abs(value_of(h)) / V(most_kinks)) break;
+        end = repeated == V(0) ? kink->behind : repeated;
+        s = w.expansion.time_of_kink(*kink, end);
+      }
       for (std::size_t k = 0; k < z.size(); ++k)
         add_to(z[k], w.carry[k], w.expansion.increment(s, k), compensated);
-      if (!kink || kink->behind == value_of(rest)) return Status::converged;
+      if (end == value_of(rest)) return Status::converged;
+      last = kink;
       rest = rest - s;
     }
     z = w.begin, w.carry = w.carry_at_begin;
@@ -134,6 +145,15 @@ struct Taylor {
   }
 
  private:
+  // A piece of a step that goes through a kink once more: rounding has left the state or the time on the near
+  // side. Twice the last such piece, and at least what moves the time, leads on, up to the rest of the step.
+  template <class V>
+  static V longer(const Kink<V>& kink, const V& last, const V& rest, const V& t) {
+    const V moving = V(4) * std::numeric_limits<V>::epsilon() * std::max(V(abs(t)), V(abs(rest)));
+    const V length = std::max({V(abs(kink.behind)), V(V(2) * abs(last)), moving});
+    return length < abs(rest) ? (rest < V(0) ? V(-length) : length) : rest;
+  }
+
   // The step from z that the series allows, at most `limit` and in its direction. The scale of a coordinate
   // that begins at zero follows from the step, which at the start of a motion is therefore looked for twice.
   template <class P>

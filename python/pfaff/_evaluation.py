@@ -110,7 +110,8 @@ def bracket(
     """The bracket {f, g} of two functions at a state, of the structure of a system.
 
     That is df . Pi(z, t) dg with exact derivatives. A system with constraints has the Dirac bracket of its motion, in
-    its default formulation.
+    its default formulation; one with constraints of velocities alone the nonholonomic bracket at momenta whose
+    velocities satisfy them.
 
     Args:
         f, g: functions of the state, recorded once. Their arguments are called as those of the formulas of a system are:
@@ -121,7 +122,8 @@ def bracket(
         **parameters: of the system.
 
     Raises:
-        InputError: a state of another size, a function that returns other than one number.
+        InputError: a state of another size, a function that returns other than one number, a system that states a
+            field alone.
         TraceError: a function that compares values or calls `math`.
 
     >>> import pfaff

@@ -126,17 +126,25 @@ class Run:
         True
 
         Raises:
-            InputError: an unknown parameter, one that is no real number, and a run whose method chose its steps.
+            InputError: an unknown parameter, one that is no real number, and a run whose method chose its steps or has
+                coefficients in double only.
         """
         if self._asked["tolerance"]:
             raise InputError("sensitivity: expected a run with steps of one size")
+        try:
+            self._begun_in_quad(as_system(self.system))
+        except InputError as error:
+            reason = str(error).partition("; expected")[0]
+            raise InputError(f"sensitivity: it is a difference of runs in quad precision, and {reason}; expected a method that runs in quad") from None
         warn_of_jumps(as_system(self.system), "sensitivity", 2)
         return sensitivity_of(as_system(self.system), parameter, self._end_of)
 
+    def _begun_in_quad(self, system: Any) -> Any:
+        return _pfaff.RunInProgress(system.model, self.method.instance, {**self._asked, "precision": "quad", "measures": [], "out": ""})
+
     def _end_of(self, system: Any) -> tuple[decimal.Decimal, ...]:
         """The last state that the run has with another system, in quad precision."""
-        asked = {**self._asked, "precision": "quad", "measures": [], "out": ""}
-        start = _pfaff.RunInProgress(system.model, self.method.instance, asked).samples()["initial"]
+        start = self._begun_in_quad(system).samples()["initial"]
         it = self._integration(system, start, "quad")
         it.steps(self.summary.get("completed", self._steps))
         return it.decimals

@@ -3,6 +3,7 @@
 
 #include <pfaff/bench/evaluation/evaluation.hpp>
 #include <pfaff/bench/runner/initial_state.hpp>
+#include <pfaff/brackets/nonholonomic/nonholonomic_bracket.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -50,7 +51,21 @@ std::vector<double> values_of(std::shared_ptr<const Tape> tape, double t, const 
   return values;
 }
 
-// {f, g} = df . Pi dg, with the tensor of the system, or of Dirac's bracket where it has constraints.
+// The tensor of the bracket that makes a motion of an energy: Dirac's or the nonholonomic one where the
+// system has constraints, otherwise its own.
+Matrix<double> tensor_of(const Model& model, const Model& motion, double t, const std::vector<double>& z) {
+  if (model.nonholonomic()) return nonholonomic_point(model, t, z).tensor;
+  if (motion.constrained()) return dirac_tensor(constraint_brackets<double>(motion, t, z));
+  if (!motion.facets().meets(facets(Facet::hamiltonian, Facet::metriplectic, Facet::structure)))
+    throw InputError("on: " + model.name() +
+                     " states a field alone; expected a system whose energy and structure make its field");
+  Matrix<double> tensor(z.size(), z.size());
+  const std::vector<double> entries = values_of(motion.tape(Formula::poisson_tensor), t, z);
+  for (std::size_t k = 0; k < entries.size(); ++k) tensor(k / z.size(), k % z.size()) = entries[k];
+  return tensor;
+}
+
+// {f, g} = df . Pi dg.
 double bracket_of(const PySystem& system, const PyTape& f, const PyTape& g, double t,
                   const std::vector<double>& z) {
   return without_lock([&] {
@@ -61,13 +76,7 @@ double bracket_of(const PySystem& system, const PyTape& f, const PyTape& g, doub
     const auto gradient = [&](const PyTape& of) {
       return values_of(std::make_shared<const Tape>(jacobian_tape(*of.tape)), t, z);
     };
-    Matrix<double> tensor(z.size(), z.size());
-    if (model->constrained()) {
-      tensor = dirac_tensor(constraint_brackets<double>(*model, t, z));
-    } else {
-      const std::vector<double> entries = values_of(model->tape(Formula::poisson_tensor), t, z);
-      for (std::size_t k = 0; k < entries.size(); ++k) tensor(k / z.size(), k % z.size()) = entries[k];
-    }
+    const Matrix<double> tensor = tensor_of(*system.model, *model, t, z);
     const std::vector<double> df = gradient(f), dg = gradient(g);
     double sum = 0;
     for (std::size_t i = 0; i < z.size(); ++i)

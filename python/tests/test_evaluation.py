@@ -37,6 +37,42 @@ def test_brackets_of_functions_are_dirac_s_where_there_are_constraints():
     assert of(lambda p_x: p_x, lambda p_y: p_y) == pytest.approx(0 * 0.4 - 0.6 * 0.9, abs=1e-15)  # y p_x - x p_y
 
 
+def test_brackets_of_functions_are_nonholonomic_where_velocities_are_constrained():
+    class Skate(pfaff.System):
+        coordinates = {"q": 3, "p": 3}
+        initial = [0.1, 0.5, 0, 0.6, 0.4, 0.3]  # p[2] = q[1] p[0]
+
+        def kinetic(self, p):
+            return p @ p / 2
+
+        def potential(self, q):
+            return q @ q / 2
+
+        def velocity_constraints(self, q):
+            return {"c": [-q[1], 0, 1]}
+
+    z = [0.1, 0.5, 0, 0.6, 0.4, 0.3]
+    normal = np.array([-0.5, 0, 1]) / np.sqrt(1.25)
+    assert pfaff.bracket(lambda q: q[0], lambda p: p[0], z, on=Skate()) == pytest.approx(1 - normal[0] ** 2, abs=1e-15)
+    force = np.array([-0.1, -0.5, 0])  # and the reaction, for which p[2]' = q[1]' p[0] + q[1] p[0]'
+    along = force - normal * (force @ normal - 0.4 * 0.6 / np.sqrt(1.25))
+    for k in range(3):
+        rate = pfaff.bracket(lambda p, k=k: p[k], lambda q, p: (p @ p + q @ q) / 2, z, on=Skate())
+        assert rate == pytest.approx(along[k], abs=1e-15)
+
+
+def test_a_field_alone_has_no_bracket():
+    class Decay(pfaff.System):
+        coordinates = ["x"]
+        initial = [1]
+
+        def field(self, x):
+            return [-x]
+
+    with pytest.raises(pfaff.InputError, match="decay states a field alone"):
+        pfaff.bracket(lambda x: x, lambda x: x, [1], on=Decay())
+
+
 def test_brackets_of_functions():
     z = [0.3, 0.4, 0.5, 0.6]
     # {q1 p2 - q2 p1, q1} = q2 and {H, q1} = -p1, by hand

@@ -125,6 +125,7 @@ const Measure<Contraction> registered{
          "determinant of the tangent map of its steps. The outline is that of a disc whose points are "
          "carried "
          "along.",
+     .version = 2,
      .watches = {Claim::conformal},
      .usual = true}};
 }  // namespace

@@ -171,6 +171,7 @@ const Measure<PoincareLoop> registered{
          "over that at the start. It stays where every step keeps the structure. Its uncertainty is "
          "what it changes by where every other point is left out; a loop that winds up is known no "
          "longer.",
+     .version = 2,
      .watches = {Claim::symplectic, Claim::k_symplectic},
      .usual = true}};
 }  // namespace

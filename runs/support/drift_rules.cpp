@@ -252,6 +252,8 @@ Verdict of_lost(Verdict verdict, const Facts& facts, const Observed& observed) {
     if (before.series.samples < fewest_samples) continue;
     Facts early = facts_of(before);
     if (early.means.empty()) continue;
+    // What ends on the other side was not lost at the start.
+    if (early.slope.value * facts.means.back() < 0) continue;
     early.slowest = 0, early.arc = -HUGE_VAL;  // what is used up stays away: its curve is no arc
     Verdict first = decide(early);
     if (!is_trend(first.drift_class)) continue;

@@ -6,13 +6,11 @@
 namespace pfaff {
 
 std::vector<double> scales_of(const std::vector<double>& sizes) {
-  constexpr double ordinary = 64;
   const double largest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
   std::vector<double> scales;
   for (const double known : sizes) {
     const double size = known == 0 ? largest : known;
-    const bool as_it_is = !(size > 0) || !std::isfinite(size) || (size >= 1 / ordinary && size <= ordinary);
-    scales.push_back(as_it_is ? 1 : std::exp2(std::round(std::log2(size))));
+    scales.push_back(size > 0 && std::isfinite(size) ? std::exp2(std::round(std::log2(size))) : 1);
   }
   return scales;
 }

@@ -8,9 +8,9 @@
 
 namespace pfaff {
 
-/// The powers of two nearest to sizes of coordinates. Sizes within a factor of 64 of one are taken as one, so
-/// that the numbers of ordinary systems stay what they are; so are sizes that are not finite. A size of zero
-/// is not known, and taken for the largest one.
+/// The powers of two nearest to sizes of coordinates, by which the numbers of a system in other units are the
+/// same to the last bit where these are powers of two. A size that is not finite is taken as one; a size of
+/// zero is not known, and taken for the largest one.
 std::vector<double> scales_of(const std::vector<double>& sizes);
 
 /// A state in coordinates divided by their scales: the root of the sum of the squares.

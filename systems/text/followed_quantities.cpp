@@ -135,6 +135,11 @@ void add_followed_quantities(ModelSource& source) {
       !reads_time(casimirs))
     for (std::size_t k = 0; k < casimirs->outputs.size(); ++k)
       followed.add(casimirs, k, conserved("casimir" + std::to_string(k + 1), ""));
+  const Tapes birkhoffian = source.given[index(Formula::birkhoffian)];
+  if (birkhoffian != nullptr && !reads_time(birkhoffian) &&
+      !reads_time(source.given[index(Formula::one_form)]))
+    followed.add(birkhoffian, 0,
+                 {"birkhoffian", "", is_conserved(source) ? Behaviour::conserved : Behaviour::free, false});
   followed.finish();
 }
 

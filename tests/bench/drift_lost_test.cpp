@@ -108,6 +108,22 @@ TEST(DriftLost, NotBySymplecticMethods) {
     }
 }
 
+// A beat of an oscillator that is driven near its frequency, whose energy does not stay what it is: it falls
+// at first, and rises to more than ten times as much then. Neither is the slope of the start that of the run,
+// nor is anything lost.
+TEST(DriftLost, WhatComesBackAndExceedsTheStartIsNoTrendOfTheStart) {
+  const testing::TemporaryDirectory folder;
+  const std::filesystem::path file = folder.path() / "beat.toml";
+  write_file(file,
+             "name = \"beat\"\ncoordinates = [\"x\", \"v\"]\ninitial = [1, 0]\n"
+             "field = [\"v\", \"-x + 0.01*sin(1.003*t)\"]\ninvariants = { energy = \"(x^2 + v^2)/2\" }\n");
+  for (const char* time : {"1000", "2000"}) {
+    const testing::RecordWithSamples record = executed({file.string(), "gauss", "0.1", time});
+    const Drift& energy = record.invariants().drift.at(0);
+    EXPECT_EQ(to_string(energy.drift_class), "undetermined") << time << ": " << energy.evidence;
+  }
+}
+
 // A rest energy of 1e6 rounds each evaluation to 1.1e-10, and no step. Each step of RK4 at h = .05 loses the
 // part h^6/72 - h^8/576 of the energy of motion, .5: 5e-8 in 461 steps, which is nothing that roundings do.
 TEST(DriftLost, BesideARestEnergy) {

@@ -253,6 +253,16 @@ class Said(Fresh):
         self.assertIn("rk and bad let the energy drift (drifting), the other does not",
                       wording.plain_text(first_screen.below(self.verdict())))
 
+    def test_what_falls_with_the_step_is_no_round_off(self):
+        # A loss of a method beside a rest energy: small in units of it, and thirty times smaller at half the step.
+        synthetic(self.folder)
+        steps = []
+        self.edit("results.csv", "step", lambda x: steps.append(x) or x, lambda row: row[2] == "rk")
+        losses = iter(f"{1e-13 * (float(x) / max(map(float, steps))) ** 5}" for x in steps)
+        self.edit("results.csv", "energy:max", lambda x: next(losses), lambda row: row[2] == "rk")
+        self.assertIn("rk and bad let the energy drift (drifting), the other does not",
+                      wording.plain_text(first_screen.below(self.verdict())))
+
     def test_equal_cost_is_said_of_runs_that_cost_the_same(self):
         synthetic(self.folder)
 

@@ -125,6 +125,49 @@ TEST(TaylorKinks, ChosenStepsEndThere) {
   EXPECT_LT(static_cast<double>(run(Quad(1e-25), Quad(25))), 1e-29);
 }
 
+// A spring that becomes stiffer at t = 23/10, and two bodies that pass through each other and attract by a
+// constant force. Rounding leaves the time, or the difference of the positions, on the near side of the kink.
+struct Stiffened {
+  static constexpr int dimension = 2;
+  template <class T>
+  void field(const T& t, In<T> z, Out<T> rate) const {
+    rate[0] = z[1];
+    rate[1] = -z[0] - select(t - T(23) / T(10), T(7) / T(10), T(0)) * z[0];
+  }
+};
+struct Bodies {
+  static constexpr int dimension = 4;
+  template <class T>
+  void field(const T& /*t*/, In<T> z, Out<T> rate) const {
+    rate[0] = z[2], rate[1] = z[3];
+    rate[2] = -z[0] - sign(z[0] - z[1]);
+    rate[3] = -z[1] + sign(z[0] - z[1]);
+  }
+};
+TEST(TaylorKinks, AreLeftBehindWhereRoundingStaysBeforeThem) {
+  const auto stepped = [](const auto& model, auto h, std::int64_t steps, auto z) {
+    using T = decltype(h);
+    const auto stepper = method_named("taylor", {{"order", "20"}})->stepper(model, T());
+    std::int64_t completed = 0;
+    EXPECT_EQ(stepper->advance(T(0), 0, h, steps, z, completed), Status::converged) << static_cast<double>(h);
+    return z;
+  };
+  const auto spring = sample_of(Stiffened{}), bodies = sample_of(Bodies{});
+  const double stiffness = std::sqrt(1.7);
+  for (const double h : {0.1, 0.05, 0.02, 0.01, 0.005, 0.023, 0.046, 0.0023, 0.115, 0.23}) {
+    const auto z = stepped(spring, h, std::lround(6.9 / h), std::vector<double>{0.2, 0});
+    const double q = 0.2 * std::cos(2.3), p = -0.2 * std::sin(2.3), s = stiffness * 4.6;
+    EXPECT_NEAR(z[0], q * std::cos(s) + p / stiffness * std::sin(s), 1e-13) << h;
+  }
+  (void)stepped(spring, Quad(1) / Quad(100), 690, std::vector<Quad>{Quad(1) / Quad(5), Quad(0)});
+  for (int k = 1; k <= 40; ++k) {
+    const double h = 0.0015 * k;
+    const auto z = stepped(bodies, h, std::lround(12 / h), std::vector<double>{1, 0.3, 0, 0.1});
+    const double energy = (z[0] * z[0] + z[1] * z[1] + z[2] * z[2] + z[3] * z[3]) / 2 + std::abs(z[0] - z[1]);
+    EXPECT_NEAR(energy, (1 + 0.09 + 0.01) / 2 + 0.7, 1e-12) << h;
+  }
+}
+
 // A motion that stays at a jump of its field ends with a status, soon.
 TEST(TaylorKinks, AMotionThatStaysAtAJumpEnds) {
   const auto model = sample_of(Sliding{});

@@ -69,7 +69,7 @@ class Drawing {
     // What a method does to an entropy by itself shows beside a weak relaxation, which produces little.
     if ((recipe_.kind == SystemKind::metriplectic && below(2) == 0) ||
         recipe_.kind == SystemKind::concave_metriplectic)
-      recipe_.rate = Real::fraction(1, 1000000);
+      recipe_.rate = Real::fraction(1, 1000000000000);
     return recipe_;
   }
 

@@ -1,0 +1,141 @@
+// Verification of systems written as text, by people who had not read the checks: sound ones in units or with
+// parameters of their own, which pass, and false ones, which do not.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include <pfaff/core/integrator.hpp>
+#include <pfaff/systems/text/text_system.hpp>
+#include <pfaff/verify/check.hpp>
+#include <pfaff/verify/random_checks.hpp>
+
+#include "../temporary_directory.hpp"
+#include "judged.hpp"
+
+namespace {
+using namespace pfaff;
+using pfaff::testing::bad;
+using pfaff::testing::Names;
+
+class JudgedTexts : public ::testing::Test {
+ protected:
+  const SystemPlugin& system(const std::string& name, const std::string& rest) const {
+    const auto file = files_ / (name + ".toml");
+    std::ofstream(file) << "name = \"" << name << "\"\n" << rest;
+    return system_named(file);
+  }
+  static Names with(const SystemPlugin& system, const char* method, const Assignments& parameters) {
+    const auto made = integrators().get(method, "integrator").make(parameters);
+    return bad(check_method(*made, parameters, system.name(), system.make({}), false));
+  }
+
+ private:
+  pfaff::testing::TemporaryDirectory files_;
+};
+
+// A constraint of a coordinate alone is exactly zero at a start, and rounds nothing.
+TEST_F(JudgedTexts, AStartOffOneConstraintIsFoundBesideOneThatIsExact) {
+  const std::string particle =
+      "coordinates = { q = 3, p = 3 }\nkinetic = \"(p[1]^2 + p[2]^2 + p[3]^2)/2\"\n"
+      "potential = \"q[1]^2/2 + q[3]^4/4\"\n";
+  const Names off{"initial state is on the constraints"};
+  EXPECT_EQ(bad(check_system(system("its-rate", particle + "initial = [1, 0, 0, 0.3, 1, 0.2]\n"
+                                                           "holonomic = { plane = \"q[2]\" }\n"))),
+            off);
+  const std::string elsewhere = particle + "initial = [1, 0, 3, 0, 0, 0]\n";
+  const std::string plane = "plane = \"q[2]\"", circle = "circle = \"q[1]^2 + q[3]^2 - 9\"";
+  EXPECT_EQ(
+      bad(check_system(system("second", elsewhere + "holonomic = { " + plane + ", " + circle + " }\n"))),
+      off);
+  EXPECT_EQ(bad(check_system(system("first", elsewhere + "holonomic = { " + circle + ", " + plane + " }\n"))),
+            off);
+  EXPECT_EQ(bad(check_system(system("on-both", particle + "initial = [3, 0, 0, 0, 0, 0.5]\nholonomic = { " +
+                                                   plane + ", " + circle + " }\n"))),
+            Names{});
+}
+
+// States beside the start are away from it by a part of its own size: those of a spring of 5 cm that cannot
+// be longer than this are shorter, and numbers of animals stay positive, whatever they are counted in.
+TEST_F(JudgedTexts, StatesBesideASmallStartStayInTheDomain) {
+  for (const char* length : {"1", "1/5", "1/20", "1/100"})
+    EXPECT_EQ(bad(check_system(system("fene", std::string("parameters = { L = \"") + length +
+                                                  "\" }\ncoordinates = [\"q\", \"p\"]\n"
+                                                  "initial = [\"L*2/5\", \"L/10\"]\nkinetic = \"p^2/2\"\n"
+                                                  "potential = \"-L^2/2*log(1 - (q/L)^2)\"\n"))),
+              Names{})
+        << length;
+  EXPECT_EQ(bad(check_system(system("animals",
+                                    "coordinates = [\"x\", \"y\"]\ninitial = [\"0.08\", \"0.04\"]\n"
+                                    "field = [\"x*(1 - 20*y)\", \"y*(12.5*x - 1)\"]\n[invariants]\n"
+                                    "V = \"12.5*x - log(x) + 20*y - log(y)\"\n"))),
+            Names{});
+  for (const char* eccentricity : {"0.7", "0.95"})  // bound at the start, and barely so
+    EXPECT_EQ(bad(check_system(systems().get("kepler", "system"), {{"eccentricity", eccentricity}})),
+              Names{});
+}
+TEST_F(JudgedTexts, ErrorsOfRoundingAreMeasuredOnMotionsOfTheSameKindInEveryUnit) {
+  const SystemPlugin& small =
+      system("small-orbit",
+             "coordinates = { q = 2, p = 2 }\ninitial = [\"1/20\", \"1/160\", \"1/320\", \"11/160\"]\n"
+             "kinetic = \"(p[1]^2 + p[2]^2)/2\"\npotential = \"-1/4096/sqrt(q[1]^2 + q[2]^2)\"\n");
+  EXPECT_EQ(with(small, "gauss", {{"stages", "6"}}), Names{});
+}
+
+// Steps of compositions go back and forth; of fast motions the longest of them has no solution on its way
+// back at a step at which it has one on its way there.
+TEST_F(JudgedTexts, StepsAreShortEnoughForTheWayBack) {
+  const SystemPlugin& lorenz = system("lorenz",
+                                      "coordinates = [\"x\", \"y\", \"z\"]\ninitial = [1, 1, 1]\n"
+                                      "field = [\"10*(y - x)\", \"x*(28 - z) - y\", \"x*y - 8/3*z\"]\n");
+  EXPECT_EQ(
+      with(lorenz, "composition", {{"scheme", "yoshida"}, {"order", "8"}, {"base", "implicit-midpoint"}}),
+      Names{});
+}
+
+// The momentum of the start is small, and becomes 300 times the angle.
+TEST_F(JudgedTexts, UnitsThatDifferAreThoseOfTheMotion) {
+  const auto model = systems().get("pendulum", "system").make({{"omega", "300"}});
+  const Assignments mixing{{"order", "1"}, {"form", "normal"}, {"normal", "0.2,0.1,-0.3,-0.2"}};
+  const auto method = integrators().get("generating-function", "integrator").make(mixing);
+  EXPECT_EQ(bad(check_method(*method, mixing, "pendulum", model, false)), Names{});
+}
+
+// What is left of a semimetric of rank 2 after two pivots is rounding, of any sign.
+TEST_F(JudgedTexts, ASemimetricIsNonNegativeAtEveryStrength) {
+  for (const char* alpha : {"1", "7", "10", "100"})
+    EXPECT_EQ(bad(check_system(systems().get("damped-rigid-body", "system"), {{"alpha", alpha}})), Names{})
+        << alpha;
+}
+
+// The motion from the start does not go there.
+TEST_F(JudgedTexts, ClaimsAreLookedAtBehindBranchesToo) {
+  const std::string spring =
+      "coordinates = [\"q\", \"p\", \"s\"]\ninitial = [1, 0, 0]\n"
+      "hamiltonian = \"p^2/2 + q^2/2 + s\"\nentropy = \"s\"\n"
+      "bracket = [[\"0\", \"1\", \"0\"], [\"-1\", \"0\", \"0\"], [\"0\", \"0\", \"0\"]]\n";
+  const auto friction = [](const std::string& g) {
+    return "symmetric_bracket = [[\"0\", \"0\", \"0\"], [\"0\", \"" + g + "\", \"-" + g +
+           "*p\"], [\"0\", \"-" + g + "*p\", \"" + g + "*p^2\"]]\n";
+  };
+  EXPECT_EQ(bad(check_system(system("rubbed", spring + friction("(0.1 + select(q > 3, 1, 0))")))), Names{});
+  EXPECT_EQ(bad(check_system(system("driven", spring + friction("(0.1 - 0.2*select(q > 3, 1, 0))")))),
+            (Names{"entropy does not fall", "symmetric bracket is non-negative"}));
+  const std::string wall =
+      "coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\n"
+      "field = [\"p\", \"-q - select(q > 2, (q - 2)^3, 0)\"]\n[invariants]\n";
+  EXPECT_EQ(
+      bad(check_system(system("wall", wall + "e = \"p^2/2 + q^2/2 + select(q > 2, (q - 2)^4/4, 0)\"\n"))),
+      Names{});
+  EXPECT_EQ(bad(check_system(system("forgotten-wall", wall + "e = \"p^2/2 + q^2/2\"\n"))),
+            Names{"conserves e"});
+}
+
+// RK4 loses entropy as it turns a body; a relaxation of 1e-6 makes more of it.
+TEST_F(JudgedTexts, AnEntropyThatAMethodLosesShowsBesideAWeakRelaxation) {
+  static const Method<pfaff::testing::Classical<false>> claiming{
+      {.name = "rk4-of-entropy", .title = "", .reference = "", .order = 4, .preserves = {Claim::entropy}}};
+  EXPECT_EQ(bad(check_on_random_systems(*claiming.make({}), {})), Names{"entropy"});
+}
+
+}  // namespace
