@@ -225,7 +225,8 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     const bool some = row.from_jacobian || excused >= most_excused;
     if (some && !on.history() && place.steps % (steps_of_run / looks) != 0) continue;
     const double residual = in_double(place);
-    if (std::isnan(residual)) break;  // steps that do not converge are no claim's fault
+    // Steps that do not converge, in double or in quad, are no claim's fault.
+    if (std::isnan(residual)) break;
     const bool lost = residual > check.tolerance;
     // The equations of an implicit step that is long, or near a kink of the field, may have several
     // solutions, of which the step back finds another.
@@ -234,9 +235,13 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     check.measured = std::max(check.measured, residual);
     if (!lost) continue;
     const double falls = most_in_quad(residual);
-    if (!on.double_coefficients() && falls >= 0 && in_quad(place, falls) <= falls) {
-      ++excused;
-      continue;
+    if (!on.double_coefficients() && falls >= 0) {
+      const double residual_in_quad = in_quad(place, falls);
+      if (std::isnan(residual_in_quad)) continue;
+      if (residual_in_quad <= falls) {
+        ++excused;
+        continue;
+      }
     }
     check.result = CheckResult::fail;
     check.reason = "lost in step " + std::to_string(place.steps + 1);
