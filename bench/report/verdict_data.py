@@ -9,6 +9,7 @@ Cells of which nothing is known are empty in CSV and null in JSON.
 """
 import math
 
+from curves import ZERO
 from verdict import TARGETS
 
 KNOWN = {True: "yes", False: "no", None: "not known"}
@@ -34,7 +35,7 @@ def row_of(verdict, row, best):
              "step": row.run.step if row.run else None, "quantity": verdict.invariant,
              "drift_class": row.drift_class, "drift": number(row.drift),
              "drifts": KNOWN[row.drifts] if verdict.invariant else "", "astray": row.astray,
-             "error": number(row.error)}
+             "error": 0.0 if row.error == ZERO * verdict.unit else number(row.error)}
     cells |= {f"cost_to_{t:.0e}": number(row.times[t][0]) for t in TARGETS}
     return cells | {"bounds": " ".join(f"{t:.0e}" for t in TARGETS if row.times[t][1]), "target": target,
                     "ratio": row.times[target][0] / best[0].times[target][0] if ranked else None,

@@ -101,8 +101,15 @@ def whole(value: Any, what: str, least: int) -> int:
     return int(value)
 
 
+def refuse_masked(value: Any, what: str, expected: str) -> None:
+    """What is masked is no number, and NumPy leaves one behind the mask when it makes an array of it."""
+    if np.ma.is_masked(value):
+        raise InputError(f"{what}: expected {expected}, got an array with masked elements")
+
+
 def real_array(value: Any, what: str, expected: str) -> np.ndarray:
     """An array of doubles of real numbers, of any shape."""
+    refuse_masked(value, what, expected)
     try:
         array = np.asarray(value)
         if array.dtype.kind in "iuf" or array.size == 0 or array.dtype == object and not _has_other_kinds(array):

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import _pfaff
-from ._arguments import shown
+from ._arguments import refuse_masked, shown
 from ._errors import InputError
 
 
@@ -120,6 +120,7 @@ def _dimensions(values: Any) -> int:
 
 def texts_of_state(values: Any, what: str, expected: str = "a list or an array of one dimension") -> list[str]:
     """The texts of the numbers of a state, an array of one dimension."""
+    refuse_masked(values, what, expected)
     if _dimensions(values) != 1:
         several = "; pfaff.ensemble takes many initial states" if _dimensions(values) == 2 and what == "initial" else ""
         raise InputError(f"{what}: expected {expected}, got {shown(values)}{several}")

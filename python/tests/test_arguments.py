@@ -232,6 +232,8 @@ def test_what_functions_and_dictionaries_give_is_refused_in_one_line(name):
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, out=5), "out: expected the path of a directory, got 5"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, initial=np.eye(3)), "got an array of shape (3, 3); pfaff.ensemble takes many initial states"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, measures=[lambda run: "x"]), "expected 11 numbers of lambda, one for each sample, got 'x'"),
+    (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, initial=np.ma.array([1.0, 2.0], mask=[0, 1])), "got an array with masked elements"),
+    (lambda: pfaff.ensemble(duffing, "verlet", np.ma.array([[1.0, 2.0]], mask=[[0, 1]]), step=0.1, steps=1), "got an array with masked elements"),
     (lambda: pfaff.ensemble(henon_heiles, "verlet", [[1, 2], [3]], step=0.1, steps=1), "states: expected real numbers, an array of shape (N, 4)"),
     (lambda: pfaff.evaluate(duffing, ["x", 1]), "state q of duffing: expected a finite decimal number or a/b, got 'x'"),
     (lambda: duffing(alpha="x"), "parameter 'alpha' of duffing: expected a finite"),

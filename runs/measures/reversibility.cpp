@@ -83,6 +83,9 @@ struct Reversibility {
       there.forget();
     }
     const auto end = (*work.back)(there, at.step);
+    // Every longer way back ends with that step.
+    if (!end && at.step == 1)
+      throw RunError("the first step cannot be taken back: the step back does not converge");
     const T norm = apart(work.start, std::vector<T>(work.start.size(), T(0)));
     const T size = norm > T(0) ? norm : T(1), unit = std::numeric_limits<T>::epsilon() / T(2);
     const T not_known(std::numeric_limits<double>::quiet_NaN());
