@@ -224,6 +224,7 @@ struct SymmetricallyProjected : Base {
           moved.add(w.shift.move(k), q[k], q[k] - z[k]);
         }
         kicked.against(momentum[k]);
+        kicked.against(z[n + k]);
         kicked.add(w.shift.kick(k), momentum[k], momentum[k] - z[n + k]);
       }
       convergence.begin_iteration();

@@ -278,5 +278,19 @@ TEST(ConstrainedMethods, RefuseInTheirOwnNames) {
             "composition of rattle" + reason);
 }
 
+// Symmetric methods take their first step back from a start at rest, where momenta end as what is left of two
+// that cancel.
+TEST(ConstrainedMethods, TakeAStepBackOntoRest) {
+  const auto model = model_named("bead-rod");
+  const auto start = testing::initial_state<double>(*model);
+  for (const char* method : {"projected-gauss", "rattle", "lobatto-spark"})
+    for (const double h : {0.2, 0.05, 1e-3}) {
+      const auto there = run_constrained<double>(*method_named(method), model, h, 1);
+      const auto back = run_constrained<double>(*method_named(method), model, -h, 1, there.z);
+      EXPECT_EQ(back.status, Status::converged) << method << ' ' << h;
+      EXPECT_LT(distance_of_first(back.z, start, start.size()), 2e-15) << method << ' ' << h;
+    }
+}
+
 }  // namespace
 }  // namespace pfaff
