@@ -119,11 +119,14 @@ class FormulationChecker {
     std::uniform_real_distribution<double> offset(-0.05, 0.05);
     const Evaluator<T> field = make_evaluator<T>(formulated_, Formula::field);
     Replay<WithRounding<T>> bounding(formulated_->tape(Formula::field));
+    const std::vector<double> scales = coordinate_scales(*formulated_);
+    const Quad time = own_time(*formulated_, Real(0), model_->initial());
     for (int k = 0; k < states_on_surface + states_off_surface; ++k) {
       const bool surface = k < states_on_surface;
-      const T t(1 + offset(random));
+      const T t(Real(time * Quad(1 + offset(random))));
       std::vector<Quad> state;
-      for (const Real& x : model_->initial()) state.push_back(x.quad() + Quad(offset(random)));
+      for (std::size_t i = 0; i < scales.size(); ++i)
+        state.push_back(model_->initial()[i].quad() + Quad(offset(random) * scales[i]));
       if (surface && project_onto_constraints(*model_, Quad(t), state).status != Status::converged) continue;
       std::vector<T> z, rate(state.size());
       for (const Quad& x : state) z.push_back(static_cast<T>(x));

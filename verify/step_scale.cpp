@@ -56,7 +56,9 @@ std::vector<double> coordinate_scales(const std::vector<Real>& centre) {
 
 std::vector<double> coordinate_scales(const Model& motion, const Real& t, const std::vector<Real>& z) {
   std::vector<double> scales = coordinate_scales(z);
-  const auto is_zero = [](const Real& x) { return x.value() == 0; };
+  double largest = 0;
+  for (const Real& x : z) largest = std::max(largest, std::abs(x.value()));
+  const auto is_zero = [largest](const Real& x) { return std::abs(x.value()) <= no_size * largest; };
   if (std::none_of(z.begin(), z.end(), is_zero) || !is_short(motion)) return scales;
   const std::size_t n = z.size();
   const TaylorExpansion<Quad> expansion = expanded(motion, t, z);

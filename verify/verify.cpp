@@ -57,13 +57,17 @@ void validate(const VerificationSettings& settings) {
 }
 
 // A claim that could be judged on no system is no sound one. Added for methods that were tried on every
-// system; the order counts as judged where one of its checks is.
-void add_claims_judged_nowhere(std::vector<Check>& checks,
-                               const std::function<bool(const std::string& method)>& tried) {
+// system, whose descriptors `tried` gives, or null; the order counts as judged where one of its checks is. A
+// claim without any check is one in whose scope none of the systems is that the method takes.
+void add_claims_judged_nowhere(
+    std::vector<Check>& checks,
+    const std::function<const MethodDescriptor*(const std::string& method)>& tried) {
   std::map<std::pair<std::string, std::string>, std::pair<int, Check>>
       claims;  // judged, and one that was not
+  std::map<std::string, Check> methods;
   for (const Check& c : checks) {
-    if (c.control || !tried(c.plugin)) continue;
+    if (c.control || tried(c.plugin) == nullptr) continue;
+    methods.try_emplace(called(c.plugin, c.parameters), c);
     const bool judged = c.result == CheckResult::pass || c.result == CheckResult::fail;
     if (!judged && !unjudged(c)) continue;
     const std::string claim = c.claim.starts_with("order") ? "order" : c.claim;
@@ -80,6 +84,21 @@ void add_claims_judged_nowhere(std::vector<Check>& checks,
     check.reason = "judged on no system; " + check.reason;
     checks.push_back(check);
   }
+  for (auto& [name, check] : methods)
+    for (const Claim claim : tried(check.plugin)->preserves) {
+      const auto checked = [&](Claim one) { return claims.contains({name, std::string(to_string(one))}); };
+      const bool as_symplectic = claim == Claim::k_symplectic && checked(Claim::symplectic);
+      if (claim == Claim::none || as_symplectic || checked(claim)) continue;
+      Check missing = check;
+      missing.claim = to_string(claim);
+      missing.scope = claim_row(claim).scope;
+      missing.system.clear(), missing.precision.clear();
+      missing.measured = missing.expected = missing.tolerance = 0;
+      missing.result = CheckResult::fail;
+      missing.in_scope = true;
+      missing.reason = "judged on no system; none that the method takes is in its scope";
+      checks.push_back(missing);
+    }
 }
 
 using Progress = std::function<void(const std::string&, std::size_t, std::size_t)>;
@@ -167,10 +186,12 @@ std::vector<Check> verify(const VerificationSettings& given, const Progress& pro
   std::vector<Check> checks = results_of([&] { return verification_jobs(settings); }, progress);
   const auto& names = settings.names;
   const std::vector<std::string> methods = integrators().names_and_aliases();
-  add_claims_judged_nowhere(checks, [&](const std::string& plugin) {
-    return std::find(methods.begin(), methods.end(), plugin) != methods.end() &&
-           (names.empty() || std::find(names.begin(), names.end(), "integrators") != names.end() ||
-            std::find(names.begin(), names.end(), plugin) != names.end());
+  add_claims_judged_nowhere(checks, [&](const std::string& plugin) -> const MethodDescriptor* {
+    const bool tried =
+        std::find(methods.begin(), methods.end(), plugin) != methods.end() &&
+        (names.empty() || std::find(names.begin(), names.end(), "integrators") != names.end() ||
+         std::find(names.begin(), names.end(), plugin) != names.end());
+    return tried ? &integrators().get(plugin, "integrator").descriptor() : nullptr;
   });
   return checks;
 }
@@ -183,9 +204,10 @@ std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
     if (std::find(systems.begin(), systems.end(), model) == systems.end())
       look_for_fault_of_system(checks, model);
   if (on.empty())
-    add_claims_judged_nowhere(checks, [&](const std::string& plugin) {
-      return std::any_of(methods.begin(), methods.end(),
-                         [&](const auto& one) { return one.method->descriptor().name == plugin; });
+    add_claims_judged_nowhere(checks, [&](const std::string& plugin) -> const MethodDescriptor* {
+      for (const MethodToVerify& one : methods)
+        if (one.method->descriptor().name == plugin) return &one.method->descriptor();
+      return nullptr;
     });
   return checks;
 }

@@ -10,6 +10,7 @@
 #include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/experiment/experiment_findings.hpp>
 #include <pfaff/bench/experiment/measured_runs.hpp>
+#include <pfaff/bench/experiment/problems.hpp>
 #include <pfaff/bench/experiment/references.hpp>
 #include <pfaff/bench/experiment/results.hpp>
 #include <pfaff/bench/experiment/team.hpp>
@@ -157,35 +158,6 @@ bool choose_steps(Experiment& experiment, std::vector<ExperimentRun>& runs, Refe
   return true;
 }
 
-// A line for each problem of which something is said, by one of its runs.
-template <class Said>
-std::string line_of_each_problem(const std::vector<ExperimentRun>& runs, const Said& said) {
-  std::map<ProblemKey, std::string> lines;
-  for (std::size_t k = 0; k < runs.size(); ++k)
-    if (const std::string text = said(k); !text.empty()) lines[problem_of(runs[k])] = text + "\n";
-  std::string text;
-  for (const auto& [problem, line] : lines) text += line;
-  return text;
-}
-
-// Of each reference solution that ends before its runs.
-std::string ended_references(const std::vector<ExperimentRun>& runs,
-                             const std::vector<nlohmann::json>& summaries) {
-  return line_of_each_problem(runs, [&](std::size_t k) -> std::string {
-    if (!summaries[k].contains("reference_ended")) return {};
-    return "reference of " + runs[k].which->name + ": " + summaries[k]["reference_ended"].get<std::string>() +
-           "; errors are measured up to there";
-  });
-}
-
-// Of what is said to be conserved and is not.
-std::string false_invariants(const std::vector<ExperimentRun>& runs) {
-  return line_of_each_problem(runs, [&](std::size_t k) -> std::string {
-    const std::string& said = runs[k].resolved.not_conserved;
-    return said.empty() ? said : runs[k].which->name + ": " + said;
-  });
-}
-
 // Makes the run and leaves it in the directory; false where it was asked to stop before its end.
 bool made(const ExperimentRun& run, References& references, const fs::path& directory) try {
   return make_run(directory / "runs" / run.slug, run.resolved, references.of(run));
@@ -273,7 +245,7 @@ void make_all(Experiment experiment, const fs::path& directory, const Experiment
   outcome.failed_claims = failed_claims(findings);
   write_equal_cost(directory, experiment, runs, summaries, references, progress);
   outcome.table = results_table(directory, experiment, runs, summaries) + findings_table(findings) +
-                  ended_references(runs, summaries) + false_invariants(runs) + notes;
+                  said_of_problems(runs, summaries) + notes;
   if (options.report) {
     report(ExperimentStage::phases, "figures and report", 0);
     outcome.report = make_report(directory);
@@ -290,11 +262,6 @@ bool make_run(const fs::path& directory, const ResolvedRun& run, const Reference
   fs::remove_all(whole ? directory : unfinished, error);
   if (whole) rename_directory(unfinished, directory);
   return whole;
-}
-
-ProblemKey problem_of(const ExperimentRun& run) {
-  const Model& model = *run.resolved.model;
-  return {run.which, run.seed, model.restricted() ? std::string() : model.source().formulation};
 }
 
 ExperimentOutcome run_experiment(const Experiment& asked, const fs::path& directory,

@@ -135,10 +135,13 @@ std::vector<ExperimentRun> expand(const Experiment& experiment, std::vector<Left
 ExperimentRun at_size(const Experiment& experiment, const ExperimentRun& like, const std::string& size);
 
 /// What the reference solution of a run depends on. All runs of a case share one solution, or all runs of one
-/// seed where the case has seeds. A formulation that makes an energy of its own makes another motion, which
-/// has a solution of its own.
+/// seed where the case has seeds. A formulation that makes an energy of its own makes another motion, and so
+/// does one whose friction has another form; these have solutions of their own, by whose names they are
+/// known.
 using ProblemKey = std::tuple<const ExperimentCase*, int, std::string>;
 ProblemKey problem_of(const ExperimentRun& run);
+/// True where a formulation makes an energy of its own, and so no motion on the constraints.
+bool makes_another_motion(const Model& model);
 
 /// Makes a run in a directory of another name and renames it, so that it is whole wherever it exists. False
 /// where the run was asked to stop, and nothing is left.

@@ -92,7 +92,7 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                             {"family", run->resolved.method->family()},
                             {"parameters", parameters},
                             {"systems", systems}});
-    if (!std::get<2>(problem_of(*run)).empty()) j["methods"].back()["another_motion"] = true;
+    if (makes_another_motion(*run->resolved.model)) j["methods"].back()["another_motion"] = true;
     if (!m.tolerances.empty()) j["methods"].back()["tolerances"] = m.tolerances;
     if (!m.absolute.empty()) j["methods"].back()["absolute"] = m.absolute;
     if (!run->resolved.settings.formulation.empty()) {

@@ -19,8 +19,7 @@ from wording import counted, plain_text, text
 # What answers a question, what stands in the second line, and what is said where the runs do not answer.
 RANKED = (sentence.cheapest, sentence.bounded)
 ANSWERS = {
-    "cost": ((sentence.cheapest, drift_sentence.losing, sentence.structure),
-             (sentence.bounded, sentence.dearer, drift_sentence.drift_beside_losing), ""),
+    "cost": ((sentence.cheapest, drift_sentence.losing, sentence.bounded, sentence.structure), (sentence.dearer, drift_sentence.drift_beside_losing), ""),
     "energy": ((drift_sentence.drift,), (sentence.structure, *RANKED, sentence.dearer),
                "which methods let the conserved quantity drift away"),
     "structure": ((sentence.structure,), (drift_sentence.drift, *RANKED, sentence.dearer), "which methods keep the structure"),

@@ -6,6 +6,17 @@ import math
 from canvas import MID
 
 SIZE, SMALL = 0.86, 0.75  # of names, and of what stands beside them
+MARGIN, LEAST = 0.3, 150  # of the width of a figure that names may take, and pixels that they may take of a narrow one
+
+
+def shown(canvas, name, weight="normal"):
+    """The name, without its middle where it is wider than a margin may be: grids tell their methods apart at the end."""
+    room = max(MARGIN * canvas.width, LEAST * canvas.scale)
+    text, kept = name, len(name)
+    while kept > 4 and canvas.measure(text, SIZE, weight)[0] > room:
+        kept -= 1
+        text = f"{name[:kept - kept // 2]}…{name[-(kept // 2):]}"
+    return text
 
 
 def right_of(canvas, axes, ends, weight="normal"):
@@ -18,7 +29,7 @@ def right_of(canvas, axes, ends, weight="normal"):
     at = [(min(max(x, box.x0), box.x1), min(max(y, box.y0), box.y1)) for x, y in at]
     heights = pushed_apart([y - tall / 2 for _, y in at], tall, box.y0 - tall / 2, max(box.y0, box.y1 - tall / 2))
     for (name, _, _, colour, note), (x, y), low in zip(ends, at, heights):
-        left = box.x1 + 20 * unit
+        left, name = box.x1 + 20 * unit, shown(canvas, name, weight)
         canvas.leader((x + 3 * unit, y), (box.x1 + 4 * unit, y), colour, (0, (1, 2)))
         canvas.leader((box.x1 + 4 * unit, y), (left - 3 * unit, low + tall / 2), colour)
         canvas.write(axes, left, low, name, SIZE, color=colour, ha="left", va="bottom", zorder=6, weight=weight)

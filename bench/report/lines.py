@@ -11,7 +11,7 @@ import typing
 
 from canvas import GREY, INK, MID, PAPER, RULE, Canvas, plain, sizes
 from families import LINES
-from labels import SIZE, SMALL, right_of
+from labels import SIZE, SMALL, right_of, shown
 from scales import positive
 from wording import listed
 
@@ -115,7 +115,7 @@ def draw_lines(canvas, axes, panel, unit):
 
 def name_width(canvas, line):
     note = canvas.measure(line.note, SMALL)[0] + canvas.measure("  ", SIZE)[0] if line.note else 0
-    return max(canvas.measure(line.label, SIZE)[0] + note, canvas.measure(line.group, SIZE)[0])
+    return max(canvas.measure(shown(canvas, line.label), SIZE)[0] + note, canvas.measure(shown(canvas, line.group), SIZE)[0])
 
 
 def name_lines(canvas, axes, panel):

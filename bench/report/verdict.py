@@ -151,7 +151,7 @@ class Verdict:
         own = run.drift(self.invariant, "max")
         if not series or not own <= GROWN * self.unit * abs(series.initial):
             return False
-        size = (lambda r: r.tolerance) if curve.adaptive else (lambda r: r.step)
+        size = (lambda r: float(r.tolerance)) if curve.adaptive else (lambda r: r.step)
         others = [(size(p.run) / size(run), d) for p in curve.points if not math.isnan(d := p.run.drift(self.invariant, "max"))]
         coarser = min(((ratio, d) for ratio, d in others if ratio >= APART), default=None)
         finer = max(((ratio, d) for ratio, d in others if ratio <= 1 / APART), default=None)

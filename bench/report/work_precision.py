@@ -13,7 +13,7 @@ from error_measure import some_rows
 from families import style
 from first_screen import finding
 from figures import Drawing, heading, sentences, step_text, with_unit
-from labels import SIZE, right_of, sampled
+from labels import SIZE, right_of, sampled, shown
 from scales import power_of_ten
 from wording import counted, listed, plain_text, short_count, short_time, tick_time
 
@@ -70,7 +70,7 @@ def frame_of(wide, names):
     tall = 520 if wide is True else look.width * (0.81 if wide is not False else 1.05)
     canvas = Canvas(look.width, tall, look.font, look.unit if look.wide or wide is False else 0.6)
     left, top, bottom, gap = (x * look.unit for x in (70 if wide is True else 60, 14, 46, 30))
-    right = max((canvas.measure(name, SIZE, "bold")[0] for name in names), default=0) + gap
+    right = max((canvas.measure(shown(canvas, name, "bold"), SIZE, "bold")[0] for name in names), default=0) + gap
     return canvas, canvas.panel(left, top, look.width - left - right, tall - top - bottom)
 
 

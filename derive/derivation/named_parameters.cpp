@@ -29,10 +29,19 @@ bool is_prime(std::int64_t n) {
   return n > 1;
 }
 
-/// A prime times a power of two near `value`; `taken` are the primes that are in use.
+/// Whether a constant of the equations has a prime as a factor, as 9.81 has 109.
+bool is_factor(std::int64_t prime, const std::vector<Real>& constants) {
+  return std::any_of(constants.begin(), constants.end(), [prime](const Real& x) {
+    return x.is_fraction() && (x.numerator() % prime == 0 || x.denominator() % prime == 0) && !x.is(0);
+  });
+}
+
+/// A prime times a power of two near `value`. It is no factor of the constants of the equations, by which it
+/// would be lost among these; `taken` are the primes that are in use.
 std::optional<std::pair<std::int64_t, Real>> sample_near(const Parameter& parameter, const Real& value,
+                                                         const std::vector<Real>& constants,
                                                          std::vector<std::int64_t>& taken) {
-  constexpr int least = 128;  // of the primes, so that no constant of a formula has them as factors
+  constexpr int least = 128;
   const double size = std::abs(value.value());
   const int shift = 7 - static_cast<int>(std::floor(std::log2(size)));
   if (std::abs(shift) > 30) return std::nullopt;
@@ -40,7 +49,8 @@ std::optional<std::pair<std::int64_t, Real>> sample_near(const Parameter& parame
   for (int step = 0; step < 200; ++step) {
     const std::int64_t prime =
         static_cast<std::int64_t>(scaled) + (step % 2 == 0 ? step / 2 : -(step + 1) / 2);
-    if (prime < least / 2 || !is_prime(prime) || std::find(taken.begin(), taken.end(), prime) != taken.end())
+    if (prime < least / 2 || !is_prime(prime) || is_factor(prime, constants) ||
+        std::find(taken.begin(), taken.end(), prime) != taken.end())
       continue;
     const Real magnitude =
         shift < 0 ? Real::fraction(prime << -shift, 1) : Real::fraction(prime, std::int64_t{1} << shift);
@@ -52,7 +62,8 @@ std::optional<std::pair<std::int64_t, Real>> sample_near(const Parameter& parame
   return std::nullopt;
 }
 
-std::vector<Candidate> candidates_of(const SystemPlugin& system, const Model& model) {
+std::vector<Candidate> candidates_of(const SystemPlugin& system, const Model& model,
+                                     const std::vector<Real>& constants) {
   std::vector<Candidate> found;
   std::vector<std::int64_t> taken;
   for (const Parameter& parameter : system.parameters()) {
@@ -63,7 +74,7 @@ std::vector<Candidate> candidates_of(const SystemPlugin& system, const Model& mo
       Candidate candidate{&parameter, *value, {}, {}};
       bool possible = true;
       for (std::size_t k = 0; k < candidate.sample.size() && possible; ++k) {
-        const auto sample = sample_near(parameter, *value, taken);
+        const auto sample = sample_near(parameter, *value, constants, taken);
         possible = sample.has_value();
         if (sample) std::tie(candidate.prime[k], candidate.sample[k]) = *sample;
       }
@@ -217,7 +228,7 @@ Equations with_named_parameters(const SystemPlugin& system, const Assignments& s
   Equations equations = deriver(*model);
   if (!equations.parameters.empty()) return equations;
   const Search search(system, settings, deriver);
-  std::vector<Candidate> chosen = candidates_of(system, *model);
+  std::vector<Candidate> chosen = candidates_of(system, *model, equations.tape.constants);
   if (chosen.empty()) return equations;
   if (auto found = search.symbolic(chosen)) return keep_used(std::move(*found));
   // One by one, so that one that cannot be a symbol keeps no other from being one.

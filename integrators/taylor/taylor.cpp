@@ -90,7 +90,7 @@ struct Taylor {
     std::optional<Kink<V>> last;
     V repeated(0);  // the length of the last piece, where that went through a kink once more
     for (int piece = 0; piece < most_kinks; ++piece) {
-      ++p.counters().fields;
+      p.counters().fields += truncation;
       w.expansion.expand(t + (h - rest), z.data());
       const auto kink = w.expansion.first_kink(value_of(rest));
       if (kink && piece == 0) w.begin = z, w.carry_at_begin = w.carry;
@@ -127,7 +127,7 @@ struct Taylor {
     for (std::int64_t taken = 0; t != end; ++taken) {
       if (taken == most_taylor_steps) return Status::not_converged;
       if (steps.next(1) == 0) break;
-      ++p.counters().fields;
+      p.counters().fields += degree;
       if (!series.expand(t, z.data())) return Status::non_finite;
       const T longest = longest_step(p, tolerance, z, T(end - t), w);
       const T after = abs(end - t) <= abs(longest) ? end : t + longest;

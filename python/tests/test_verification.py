@@ -52,6 +52,18 @@ def test_coefficients_of_a_table_are_controlled():
     assert checks.ok and [check.result for check in checks if check.control] == ["rejected"] * 2  # the two weights
 
 
+def test_a_claim_in_whose_scope_no_system_is_fails():
+    @pfaff.method(order=2, preserves=["symplectic", "entropy"], needs=["separable"])
+    def kick(problem, t, h, z):
+        q, p = np.split(z, 2)
+        p = p + h / 2 * problem.force(t, q)
+        q = q + h * problem.velocity(t + h / 2, p)
+        return np.concatenate([q, p + h / 2 * problem.force(t + h, q)])
+
+    failed = pfaff.verify(kick).failed
+    assert {check.claim for check in failed} == {"entropy"} and all("judged on no system" in check.reason for check in failed)
+
+
 def test_a_method_of_python_is_verified_on_a_system_of_python(pendulum):
     checks = pfaff.verify(heun, on=pendulum)
     assert checks.ok and {check.system for check in checks} == {"swing"}

@@ -9,7 +9,7 @@ std::vector<double> scales_of(const std::vector<double>& sizes) {
   const double largest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
   std::vector<double> scales;
   for (const double known : sizes) {
-    const double size = known == 0 ? largest : known;
+    const double size = known <= no_size * largest ? largest : known;
     scales.push_back(size > 0 && std::isfinite(size) ? std::exp2(std::round(std::log2(size))) : 1);
   }
   return scales;

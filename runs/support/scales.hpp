@@ -8,9 +8,12 @@
 
 namespace pfaff {
 
+/// The part of the largest coordinate at which another is what cancelling numbers in quad have left of zero.
+inline constexpr double no_size = 1e-40;
+
 /// The powers of two nearest to sizes of coordinates, by which the numbers of a system in other units are the
-/// same to the last bit where these are powers of two. A size that is not finite is taken as one; a size of
-/// zero is not known, and taken for the largest one.
+/// same to the last bit where these are powers of two. A size that is not finite is taken as one; one that is
+/// zero, or `no_size` of the largest, is not known and taken for the largest one.
 std::vector<double> scales_of(const std::vector<double>& sizes);
 
 /// A state in coordinates divided by their scales: the root of the sum of the squares.

@@ -24,7 +24,9 @@ StepJacobian<T> StepDifferentiator<T>::operator()(const T& t, const T& h, const 
 
 std::string_view structure_name(const Model& model) {
   const FacetSet facets = model.facets();
-  if (model.holonomic()) return "constrained-symplectic";
+  // Friction and applied forces contract the structure, or do what they like with it.
+  if (model.holonomic())
+    return !model.frictionless() || model.forced() ? std::string_view() : "constrained-symplectic";
   if (facets.has(Facet::structure)) return "K-symplectic";
   if (!facets.has(Facet::hamiltonian)) return {};
   return facets.has(Facet::darboux_chart) ? "symplectic" : "poisson";

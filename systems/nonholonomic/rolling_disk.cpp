@@ -98,6 +98,6 @@ const System<RollingDisk> registered{
                      {"p_y", "kg m/s"},
                      {"p_theta", "kg m^2/s"},
                      {"p_phi", "kg m^2/s"}},
-     .invariants = {conserved_quadratic("energy", "J"), conserved("momentum-theta", "kg m^2/s"),
-                    conserved("momentum-phi", "kg m^2/s")}}};
+     .invariants = {conserved_quadratic("energy", "J"), conserved_quadratic("momentum-theta", "kg m^2/s"),
+                    conserved_quadratic("momentum-phi", "kg m^2/s")}}};
 }  // namespace

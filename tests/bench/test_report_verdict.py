@@ -12,6 +12,7 @@ import sentence  # noqa: E402
 import verdict  # noqa: E402
 import verdict_table  # noqa: E402
 import wording  # noqa: E402
+import work_precision  # noqa: E402
 
 
 class Families(Fresh):
@@ -252,6 +253,16 @@ class Said(Fresh):
             save(path, [rows[0]] + [[*row[:2], "1e-4", *row[3:]] for row in rows[1:]])
         self.assertIn("rk and bad let the energy drift (drifting), the other does not",
                       wording.plain_text(first_screen.below(self.verdict())))
+
+    def test_long_names_leave_room_for_their_figures(self):
+        # Grids name their methods by all of their parameters.
+        synthetic(self.folder, extra_methods=1)
+        long = "Gauss, formulation.friction-form = metriplectic, stages = 3, " * 3
+        for path in [*self.folder.rglob("*.csv"), self.folder / "experiment.json"]:
+            path.write_text(path.read_text().replace("a method with a rather long name, number 0", long.strip(", ").replace(", ", "; ")))
+        for wide in (True, False, 252, 510):
+            for one in work_precision.drawings(self.verdict()):
+                one.draw(wide)
 
     def test_what_falls_with_the_step_is_no_round_off(self):
         # A loss of a method beside a rest energy: small in units of it, and thirty times smaller at half the step.

@@ -77,6 +77,14 @@ TEST(Structure, IsNamedAsItIsMeasured) {
   EXPECT_EQ(structure_name(*model_named("relaxing-rigid-body")), "");  // dissipates: nothing is kept
 }
 
+// The flow of a motion on constraints with friction contracts the form; without friction it keeps it.
+TEST(Structure, IsNoneWhereConstraintsHaveFriction) {
+  const SystemPlugin& ring = systems().get("ring", "system");
+  EXPECT_EQ(structure_name(*ring.make({{"friction", "0"}})), "constrained-symplectic");
+  EXPECT_EQ(structure_name(*ring.make({{"friction", "0.5"}})), "");
+  EXPECT_EQ(structure_name(*motion_of(ring.make({{"friction", "0.5"}}))), "");
+}
+
 TEST(Structure, JacobianOfAStepOfRK4IsItsStabilityPolynomial) {
   const auto model = model_named("harmonic-oscillator");
   const Quad h(0.5);

@@ -82,6 +82,31 @@ TEST_F(JudgedTexts, ErrorsOfRoundingAreMeasuredOnMotionsOfTheSameKindInEveryUnit
   EXPECT_EQ(with(small, "gauss", {{"stages", "6"}}), Names{});
 }
 
+// Momenta at rest are what quad leaves of zero.
+TEST_F(JudgedTexts, StartsAtRestAreOnTheirConstraints) {
+  EXPECT_EQ(bad(check_system(systems().get("four-bar", "system"), {{"crank", "1.615"}})), Names{});
+  EXPECT_EQ(bad(check_system(systems().get("ring", "system"), {{"beads", "12"}, {"seed", "2"}})), Names{});
+}
+
+// A unit of time is the writer's: this one is a thousandth, or a thousand, of the motion's.
+TEST_F(JudgedTexts, FormulationsAreLookedAtInTheUnitsOfTheMotion) {
+  for (const auto& [length, gravity] : {std::pair{"1", "9.81"}, {"8e-4", "9.81e-9"}, {"1e3", "9.81e6"}}) {
+    const std::string l = length, g = gravity;
+    EXPECT_EQ(bad(check_system(system("pendulum-of-its-own",
+                                      "coordinates = [\"x\", \"y\", \"u\", \"v\"]\n"
+                                      "initial = [\"3/5*" +
+                                          l + "\", \"-4/5*" + l +
+                                          "\", 0, 0]\n"
+                                          "kinetic = \"(u^2 + v^2)/2\"\npotential = \"" +
+                                          g +
+                                          "*y\"\n"
+                                          "holonomic = [\"x^2 + y^2 - (" +
+                                          l + ")^2\"]\n"))),
+              Names{})
+        << length;
+  }
+}
+
 // Steps of compositions go back and forth; of fast motions the longest of them has no solution on its way
 // back at a step at which it has one on its way there.
 TEST_F(JudgedTexts, StepsAreShortEnoughForTheWayBack) {
