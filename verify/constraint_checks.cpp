@@ -45,9 +45,9 @@ bool printed_from_double(const Real& x) {
   return read && read->quad() == x.quad() && static_cast<std::size_t>(digits) >= digits_of_all_doubles;
 }
 
-// The residual of the constraints at the state of the descriptor, at t = 0. It is allowed eight times what the
-// roundings of the state make of it to first order, since whoever computes a state rounds more than once; numbers that were printed from doubles are known to their
-// last digit.
+// The residual of the constraints at the state of the descriptor, at t = 0. It is allowed eight times what
+// the roundings of the state make of it to first order, since whoever computes a state rounds more than once;
+// numbers that were printed from doubles are known to their last digit.
 template <class T>
 Check initial_residual(const std::string& name, const Model& model, const Model& motion,
                        const char* precision) {

@@ -157,6 +157,10 @@ MeasuredOrder settle(Error&& error_of, int halvings, Floor&& floor_of) {
   if (const std::size_t n = slopes.size(); n >= 3)
     result.moving =
         std::max(std::abs(slopes[n - 1] - slopes[n - 2]), std::abs(slopes[n - 2] - slopes[n - 3]));
+  // Slopes that fall where errors are this small are ratios of roundings.
+  if (last_error > Quad(0) && last_error < Quad(largest_round_off) && !slopes.empty() &&
+      result.slope < *std::max_element(slopes.begin(), slopes.end()) - 1)
+    result.moving = 0;
   result.reason = slopes.empty() ? "no two errors between round-off and " + formatted("%g", largest_error)
                                  : "the slope of errors has not settled when round-off comes";
   return result;

@@ -7,6 +7,7 @@
 #include <pfaff/core/system.hpp>
 #include <pfaff/core/tape/kinks.hpp>
 #include <pfaff/runs/history.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/claim_checks.hpp>
 #include <pfaff/verify/method_on_model.hpp>
@@ -100,6 +101,16 @@ bool near_a_kink(const MethodOnModel& on, const Place& place, const Real& h) {
   } catch (const SolutionEnds&) {  // as where the motion stays at a jump
     return !Kinks<Quad>(*motion->tape(Formula::field)).none();
   }
+}
+
+// A place of a run in double on its constraints in quad, where there are any: off them by a rounding in
+// double, a step misses its start by as much in both precisions.
+Place on_the_surface(const Model& model, const Place& place) {
+  if (!model.restricted()) return place;
+  std::vector<Quad> z;
+  for (const Real& x : place.z) z.push_back(x.quad());
+  if (project_onto_constraints(model, place.t.quad(), z).status != Status::converged) return place;
+  return {{z.begin(), z.end()}, place.t, place.steps};
 }
 
 // Whether the measure of a claim takes a step back to where a step began.
@@ -219,7 +230,7 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
   };
   const auto in_quad = [&](const Place& place, double enough) {
     return on.history() ? residual_at<Quad>(on, row, {on.start(), on.time()}, h, place.steps, enough)
-                        : residual_at<Quad>(on, row, place, h, 0, enough);
+                        : residual_at<Quad>(on, row, on_the_surface(*on.model(), place), h, 0, enough);
   };
   for (const Place& place : places) {
     const bool some = row.from_jacobian || excused >= most_excused;

@@ -44,7 +44,9 @@ struct BothForms {
 
   [[nodiscard]] std::vector<Claim> preserves(const Model& model) const {
     std::vector<Claim> kept{Claim::symmetric, Claim::reversible, Claim::velocity_constraints};
-    if (means() == 0 || means_are_exact(model)) kept.push_back(Claim::energy);
+    // The multipliers' mean values at the middle of a step are those of constraints that do not move.
+    const bool moving = !in_kernel(model) && !model.tape(Formula::velocity_constraints)->autonomous();
+    if (means() == 0 || (means_are_exact(model) && !moving)) kept.push_back(Claim::energy);
     return kept;
   }
 

@@ -20,7 +20,7 @@
 // order 2 with the same properties.
 //
 // With mean values along D (mean_value.hpp) in place of f_bar both hold as exactly as the mean values are
-// taken.
+// taken, the energy of constraints A(q) that do not move.
 //
 // Order 2, symmetric, and reversible where the reversal is orthogonal. Where |D| is so small that the
 // quotient is only round-off, grad H(zm) alone is used; the energy changes by less than round-off then. All
