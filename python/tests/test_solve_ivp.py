@@ -87,7 +87,7 @@ def test_a_motion_that_never_gets_on_ends_with_its_steps():
     # y = sqrt(1 - 2 t) ends at t = 1/2, behind which steps rattle about zero.
     begin = time.perf_counter()
     result = pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 3), [1.0], "taylor", most_steps=20000)
-    assert not result.success and result.status == -1 and 0.4 < result.t[-1] < 0.7 and result.nfev <= 20000
+    assert not result.success and result.status == -1 and 0.4 < result.t[-1] < 0.7 and result.nfev <= 8 * 20000  # degrees of a series
     assert result.message.startswith("20000 steps were taken by t = 0.5") and "most_steps=" in result.message
     assert "as happens at a singularity and, with explicit methods, where the motion is stiff; expected" in result.message
     times = pfaff.solve_ivp(lambda t, y: [-1 / y[0]], (0, 3), [1.0], "taylor", np.linspace(0, 3, 7), most_steps=20000)
