@@ -33,6 +33,8 @@ using namespace pfaff;
 
 constexpr int most_order = 64;
 constexpr int most_kinks = 1000;  // of the field within a step
+// Of a step: what goes so far and has not left a kink behind was not kept there by rounding.
+constexpr double largest_repeated = 1e-3;
 constexpr std::int64_t most_taylor_steps = 1000000000;
 
 template <class P>
@@ -98,7 +100,7 @@ struct Taylor {
       V end = value_of(rest);
       if (kink) {
         repeated = kink->repeats(last) ? longer(*kink, repeated, value_of(rest), value_of(t)) : V(0);
-        if (abs(repeated) > abs(value_of(h)) / V(most_kinks)) break;
+        if (abs(repeated) > abs(value_of(h)) * V(largest_repeated)) break;
         end = repeated == V(0) ? kink->behind : repeated;
         s = w.expansion.time_of_kink(*kink, end);
       }
