@@ -37,10 +37,10 @@ const FormulationPlugin* formulation_for(const SystemPlugin& system, const std::
   return &formulation_of_kind(system.constrains_velocities());
 }
 
-const FormulationPlugin* formulation_for(const Model& model, const std::string& name) {
-  const FormulationPlugin* named = named_formulation(name, model.name(), model.restricted());
-  if (named != nullptr || !model.restricted() || model.moves()) return named;
-  return &default_formulation(model);
+AskedFormulation formulation_asked_for(const Model& model, const std::string& text) {
+  if (text.empty()) return {model.restricted() && !model.moves() ? &default_formulation(model) : nullptr, {}};
+  PluginValue asked = parse_plugin_value(text, "formulation");
+  return {named_formulation(asked.name, model.name(), model.restricted()), std::move(asked.settings)};
 }
 
 std::shared_ptr<const Model> motion_of(const std::shared_ptr<const Model>& model) {

@@ -25,8 +25,16 @@ const FormulationPlugin& default_formulation(const Model& model);
 /// a system without constraints, which has a vector field without one. InputError for an unknown name, and
 /// where a formulation is named for a system without constraints.
 const FormulationPlugin* formulation_for(const SystemPlugin& system, const std::string& name);
-/// The same of a model. Null also, without a name, for one that has a motion already.
-const FormulationPlugin* formulation_for(const Model& model, const std::string& name);
+
+/// A formulation and its parameters.
+struct AskedFormulation {
+  const FormulationPlugin* plugin = nullptr;
+  Assignments parameters{};
+};
+/// That of a text NAME or NAME(key=value, ...), such as lmm(friction-form=metriplectic), for a model; of an
+/// empty text the default one. Null for a model without constraints and, without a name, for one that has a
+/// motion already. InputError as above.
+AskedFormulation formulation_asked_for(const Model& model, const std::string& text);
 
 /// The motion of a model: the model itself where it has no constraints or already offers a vector field,
 /// otherwise the model in its default formulation.

@@ -330,7 +330,9 @@ ResolvedRun resolve(const RunSettings& settings) {
       throw InputError("'" + settings.set.front().first +
                        "': expected the parameters of objects to be set where these are made");
     run.settings.system = settings.model->name();
-    objects.formulation = formulation_for(*settings.model, settings.formulation);
+    AskedFormulation asked = formulation_asked_for(*settings.model, settings.formulation);
+    objects.formulation = asked.plugin;
+    split.formulation = std::move(asked.parameters);
   }
   if (method != nullptr)
     objects.method = method->make(with_absolute_paths(method->parameters(), std::move(split.integrator)));

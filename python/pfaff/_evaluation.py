@@ -83,7 +83,8 @@ def evaluate(
         system: a registered name, the path of a text model, or a `pfaff.System`.
         state: shape (dimension,); the system's own initial state without it. Texts such as "1/3" are exact.
         time: the time.
-        formulation: of the motion of a system with constraints; the default one without.
+        formulation: of the motion of a system with constraints, with parameters or without, such as
+            "lmm(friction-form=metriplectic)"; the default one without.
         precision: "double" or "quad".
         centre: the point about which F and B are made of K and D, shape (dimension,).
         **parameters: of the system.

@@ -92,7 +92,8 @@ class Integration:
         scales: the size of a coordinate to which `tolerance` is relative: "motion", the largest that it has had so far, or
             "step", that at the ends of the step alone.
         precision: "double", or "quad" with 113 bits; arrays are of doubles in both, `decimals` has all digits.
-        formulation: of a system with constraints, for a method that needs a vector field; without it the usual one.
+        formulation: of a system with constraints, for a method that needs a vector field, with parameters or without,
+            such as "lmm(friction-form=metriplectic)"; without it the usual one.
         system_parameters, method_parameters: dictionaries, where both know a name; others are given as **parameters.
         **parameters: of the system or the method, by their names.
 

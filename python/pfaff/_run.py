@@ -286,7 +286,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
         structure: measure the residual of the structure of steps, where the system has one.
         project_initial: move an initial state that is off the constraints onto them.
         allow_inconsistent: or take it as it is.
-        formulation: of a system with constraints, for a method that needs a vector field; without it the usual one.
+        formulation: of a system with constraints, for a method that needs a vector field, with parameters or without,
+            such as "lmm(friction-form=metriplectic)"; without it the usual one.
         out: a directory in which the samples, series.csv, and the summary, summary.json, are left; with a registered
             method also what `pfaff run --config` makes the run again from, config.toml, and a system written in
             Python as the text model system.toml.

@@ -25,7 +25,8 @@ namespace {
 std::shared_ptr<const Model> motion_in(const std::shared_ptr<const Model>& model,
                                        const std::string& formulation) {
   if (formulation.empty()) return motion_of(model);
-  return formulation_for(*model, formulation)->apply(model, {});
+  const AskedFormulation asked = formulation_asked_for(*model, formulation);
+  return asked.plugin->apply(model, asked.parameters);
 }
 
 py::dict evaluated_at(const PySystem& system, const std::vector<std::string>& state, const std::string& t,

@@ -271,11 +271,11 @@ std::shared_ptr<const Model> model_for(const MethodInstance& method,
                                        const std::shared_ptr<const Model>& model,
                                        const std::string& formulation) {
   if (formulation.empty()) return motion_for(method, model);
-  const FormulationPlugin* const named = formulation_for(*model, formulation);
+  const AskedFormulation asked = formulation_asked_for(*model, formulation);
   if (method.refuses(*model).empty())
     throw InputError(method.called() + " steps on the constraints of " + model->name() +
                      " themselves; expected no formulation");
-  return named->apply(model, {});
+  return asked.plugin->apply(model, asked.parameters);
 }
 
 }  // namespace pfaff::python

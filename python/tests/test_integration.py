@@ -188,6 +188,28 @@ def test_bad_input_is_refused(settings, words):
         pfaff.Integration(duffing, "verlet", **settings)
 
 
+def test_formulations_take_parameters():
+    rods = {"beads": 4, "friction": 0.5, "mass": 2}
+    ring = pfaff.System("ring", **rods)
+
+    def end(formulation):
+        run = pfaff.run(ring, "gauss", step=0.01, time=0.2, formulation=formulation)
+        it = pfaff.Integration(ring, "gauss", step=0.01, formulation=formulation)
+        it.steps(20)
+        assert np.array_equal(run.y[-1], it.state)
+        return run.y[-1]
+
+    for form in ("stokes", "metriplectic", "none"):
+        assert end(f"lmm(friction-form={form})") == pytest.approx(end(f"dirac(friction-form={form})"), abs=1e-6)
+    assert np.array_equal(end("lmm"), end("lmm(friction-form=stokes)"))
+    assert abs(end("lmm(friction-form=none)") - end("lmm")).max() > 1e-3
+    rate = [pfaff.evaluate(ring, formulation=f"lmm(friction-form={form})", time=0)["rhs"] for form in ("none", "stokes")]
+    assert rate[0].shape == rate[1].shape == (ring.dimension,)
+    for text, words in (("lmm(friction=none)", "friction-form"), ("lmm(", "formulation"), ("lmn(friction-form=none)", "lmm")):
+        with pytest.raises(pfaff.InputError, match=words):
+            pfaff.Integration(ring, "gauss", step=0.01, formulation=text)
+
+
 def test_formulations_make_motions_of_constraints():
     dirac = pfaff.Integration("n-pendulum", "gauss", stages=4, bobs=2, step=0.01, formulation="dirac")
     usual = pfaff.Integration("n-pendulum", "gauss", stages=4, bobs=2, step=0.01)

@@ -45,22 +45,27 @@ TEST(Motion, FormulationIsTheOneNamed) {
 TEST(Motion, FormulationOfAModelIsThatOfItsSystem) {
   const auto constrained = system_by_name("spherical-pendulum").make({}),
              sleigh = system_by_name("sleigh").make({}), pendulum = system_by_name("pendulum").make({});
-  EXPECT_EQ(formulation_for(*constrained, ""), &dirac_formulation());
-  EXPECT_EQ(formulation_for(*sleigh, ""), &nonholonomic_formulation());
-  EXPECT_EQ(formulation_for(*constrained, "LMM")->name(), "lmm");
-  EXPECT_EQ(formulation_for(*pendulum, ""), nullptr);
-  EXPECT_EQ(formulation_for(*motion_of(constrained), ""), nullptr);
+  EXPECT_EQ(formulation_asked_for(*constrained, "").plugin, &dirac_formulation());
+  EXPECT_EQ(formulation_asked_for(*sleigh, "").plugin, &nonholonomic_formulation());
+  EXPECT_EQ(formulation_asked_for(*constrained, "LMM").plugin->name(), "lmm");
+  EXPECT_EQ(formulation_asked_for(*pendulum, "").plugin, nullptr);
+  EXPECT_EQ(formulation_asked_for(*motion_of(constrained), "").plugin, nullptr);
+  const AskedFormulation set = formulation_asked_for(*constrained, "lmm(friction-form=none)");
+  EXPECT_EQ(set.plugin->name(), "lmm");
+  EXPECT_EQ(set.parameters, (Assignments{{"friction-form", "none"}}));
   // What has no constraints is refused in the same words, by its name and as an object.
-  const auto refusal = [](const auto& of) -> std::string {
+  const auto refusal = [](const auto& ask) -> std::string {
     try {
-      (void)formulation_for(of, "dirac");
+      (void)ask();
     } catch (const InputError& error) {
       return error.what();
     }
     return "";
   };
-  EXPECT_EQ(refusal(*pendulum), "--formulation: pendulum has no constraints; expected none");
-  EXPECT_EQ(refusal(*pendulum), refusal(system_by_name("pendulum")));
+  EXPECT_EQ(refusal([&] { return formulation_asked_for(*pendulum, "dirac").plugin; }),
+            "--formulation: pendulum has no constraints; expected none");
+  EXPECT_EQ(refusal([&] { return formulation_asked_for(*pendulum, "dirac").plugin; }),
+            refusal([] { return formulation_for(system_by_name("pendulum"), "dirac"); }));
 }
 
 // The reference of a run on the constraints is the motion of its model: RATTLE approaches it with the step.
