@@ -132,7 +132,10 @@ class FormulationChecker {
       for (const Quad& x : state) z.push_back(static_cast<T>(x));
       field.call(field.context, t, z.data(), rate.data());
       motion_.place(Quad(t), {z.begin(), z.end()});
-      const std::vector<WithRounding<T>> exact(z.begin(), z.end());
+      // A state on the surface is a rounded one, to the scale of each coordinate: zero is what others leave.
+      std::vector<WithRounding<T>> exact(z.begin(), z.end());
+      for (std::size_t i = 0; i < scales.size() && surface; ++i)
+        exact[i].error = std::max(T(abs(z[i])), T(scales[i]));
       std::vector<WithRounding<T>> bounded(z.size());
       bounding(WithRounding<T>(t), exact.data(), bounded.data());
       std::vector<Quad> bounds;

@@ -45,7 +45,10 @@ std::vector<Real> generic_state(const Model& model) {
       throw InputError("system " + model.name() +
                        ": no state on its constraints was found near its initial state (" +
                        std::string(to_string(projection.status)) + ")");
-    for (std::size_t k = 0; k < z.size(); ++k) z[k] = Real(moved[k]);
+    // What the projection leaves of zero is zero: noise has no size by which it could be judged.
+    constexpr double noise = 1e-30;
+    for (std::size_t k = 0; k < z.size(); ++k)
+      z[k] = abs(moved[k]) <= Quad(noise * scales[k]) ? Real(0) : Real(moved[k]);
   }
   return z;
 }

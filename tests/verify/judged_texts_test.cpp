@@ -8,6 +8,7 @@
 #include <pfaff/core/integrator.hpp>
 #include <pfaff/systems/text/text_system.hpp>
 #include <pfaff/verify/check.hpp>
+#include <pfaff/verify/formulation_checks.hpp>
 #include <pfaff/verify/random_checks.hpp>
 
 #include "../temporary_directory.hpp"
@@ -80,6 +81,23 @@ TEST_F(JudgedTexts, ErrorsOfRoundingAreMeasuredOnMotionsOfTheSameKindInEveryUnit
              "coordinates = { q = 2, p = 2 }\ninitial = [\"1/20\", \"1/160\", \"1/320\", \"11/160\"]\n"
              "kinetic = \"(p[1]^2 + p[2]^2)/2\"\npotential = \"-1/4096/sqrt(q[1]^2 + q[2]^2)\"\n");
   EXPECT_EQ(with(small, "gauss", {{"stages", "6"}}), Names{});
+}
+
+// On a circle that is a sphere's cut with a plane, and redundant, z is zero: what projections leave of it has
+// no size by which a step could be judged.
+TEST_F(JudgedTexts, NoiseAboutZeroHasNoSize) {
+  const SystemPlugin& circle =
+      system("redundant-circle",
+             "coordinates = [\"x\", \"y\", \"z\", \"px\", \"py\", \"pz\"]\n"
+             "initial = [\"3/5\", \"-4/5\", \"0\", \"4*1.3/5\", \"3*1.3/5\", \"0\"]\n"
+             "kinetic = \"(px^2 + py^2 + pz^2)/2.6\"\npotential = \"y\"\n"
+             "holonomic = [\"x^2 + y^2 + z^2 - 1\", \"z\", \"x^2 + y^2 - 1\"]\n");
+  EXPECT_EQ(bad(check_system(circle)), Names{});
+  EXPECT_EQ(with(circle, "composition", {{"scheme", "yoshida"}, {"order", "4"}, {"base", "rattle"}}),
+            Names{});
+  for (const char* name : {"lmm", "simplified-dirac"})
+    EXPECT_EQ(bad(check_formulation(formulations().get(name, "formulation"), {}, circle.make({}))), Names{})
+        << name;
 }
 
 // A step of a chain with a stiff spring rounds more than its order leaves; the slopes of what is left are
