@@ -99,7 +99,7 @@ std::vector<std::vector<Quad>> directions_of(const std::vector<Quad>& scales) {
 // allowed is far above this error where motions are stiff, and far below 1e-16, which is left of a derivative
 // that is known to the round-off of double, or of an iteration that ends there.
 Check check_step_jacobian(MethodOnModel& on) {
-  constexpr double most_apart = 1e-20;
+  constexpr double most_apart = 1e-22;
   constexpr std::array<int, 3> weights{45, -9, 1};  // of the differences over 2, 4 and 6 delta, in 60ths
   MeasuredStep<Quad>& step = on.step<Quad>();
   const std::vector<Quad>& scales = step.scales();

@@ -84,9 +84,12 @@ void add_claims_judged_nowhere(
     check.reason = "judged on no system; " + check.reason;
     checks.push_back(check);
   }
-  for (auto& [name, check] : methods)
+  for (const auto& method : methods) {
+    const Check& check = method.second;
     for (const Claim claim : tried(check.plugin)->preserves) {
-      const auto checked = [&](Claim one) { return claims.contains({name, std::string(to_string(one))}); };
+      const auto checked = [&](Claim one) {
+        return claims.contains({method.first, std::string(to_string(one))});
+      };
       const bool as_symplectic = claim == Claim::k_symplectic && checked(Claim::symplectic);
       if (claim == Claim::none || as_symplectic || checked(claim)) continue;
       Check missing = check;
@@ -99,6 +102,7 @@ void add_claims_judged_nowhere(
       missing.reason = "judged on no system; none that the method takes is in its scope";
       checks.push_back(missing);
     }
+  }
 }
 
 using Progress = std::function<void(const std::string&, std::size_t, std::size_t)>;

@@ -31,6 +31,7 @@
 #include <vector>
 
 #include <pfaff/core/facets/method_instance.hpp>
+#include <pfaff/core/solve/summation.hpp>
 #include <pfaff/integrators/generating/correction_matrix.hpp>
 #include <pfaff/integrators/generating/correction_without_matrix.hpp>
 #include <pfaff/integrators/generating/expected_change.hpp>
