@@ -86,8 +86,7 @@ class FormulationChecker {
         motion_(*model_) {
     const bool moving = !model_->tape(Formula::constraints)->autonomous() ||
                         !model_->tape(Formula::hamiltonian)->autonomous();
-    const bool dissipates = (model_->given(Formula::friction) && !model_->frictionless()) ||
-                            model_->given(Formula::symmetric_tensor);
+    const bool dissipates = !model_->frictionless() || model_->given(Formula::symmetric_tensor);
     energy_in_scope_ =
         !moving && !model_->forced() && (!dissipates || statement_.friction == FrictionForm::none);
   }

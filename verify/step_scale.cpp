@@ -41,6 +41,21 @@ double largest_rate(const TaylorExpansion<Quad>& expansion, int first, const std
     }
   return rate;
 }
+// The rate of a motion from z: the size of a term of high degree tells it whatever the sizes of single
+// coordinates are.
+double rate_of(const TaylorExpansion<Quad>& expansion, const std::vector<Real>& z) {
+  return largest_rate(expansion, 6, coordinate_scales(z));
+}
+// What a motion of that rate makes of coordinate k in its own time.
+Quad made_of(const TaylorExpansion<Quad>& expansion, std::size_t k, double rate) {
+  Quad size(0), power(1);
+  for (int degree = 1; degree <= degrees; ++degree) {
+    power = power / Quad(rate);
+    const auto term = static_cast<std::size_t>(degree) * expansion.size() + k;
+    size = std::max(size, Quad(abs(expansion.coefficients()[term]) * power));
+  }
+  return size;
+}
 }  // namespace
 
 bool is_short(const Model& motion) {
@@ -73,11 +88,7 @@ std::vector<double> coordinate_scales(const Model& motion, const Real& t, const 
   for (std::size_t k = 0; k < n; ++k) {
     if (!is_zero(z[k])) continue;
     // Where the terms of a rate cancel, as far from what moves, they tell the size: not what they round.
-    Quad size = terms[k] / Quad(64 * rate), power(1);
-    for (int degree = 1; degree <= degrees; ++degree) {
-      power = power / Quad(rate);
-      size = std::max(size, abs(expansion.coefficients()[static_cast<std::size_t>(degree) * n + k]) * power);
-    }
+    const Quad size = std::max(Quad(terms[k] / Quad(64 * rate)), made_of(expansion, k, rate));
     if (size > Quad(0) && isfinite(size)) scales[k] = scales_of({static_cast<double>(size)}).front();
   }
   return scales;
@@ -93,17 +104,10 @@ std::string differing_sizes(const Model& model) {
   std::vector<double> scales = coordinate_scales(model);
   if (model.moves() && is_short(model)) {
     // A coordinate that starts small becomes as large as the motion makes it in its own time.
-    const std::size_t n = scales.size();
     const auto expansion = expanded(model, generic_time_of(model), model.initial());
-    const double rate = largest_rate(expansion, 6, coordinate_scales(model.initial()));
-    double power = 1;
-    for (int degree = 1; degree <= degrees && rate > 0; ++degree) {
-      power /= rate;
-      for (std::size_t k = 0; k < n; ++k) {
-        const Quad term = expansion.coefficients()[static_cast<std::size_t>(degree) * n + k];
-        scales[k] = std::max(scales[k], std::abs(static_cast<double>(term)) * power);
-      }
-    }
+    const double rate = rate_of(expansion, model.initial());
+    for (std::size_t k = 0; k < scales.size() && rate > 0; ++k)
+      scales[k] = std::max(scales[k], static_cast<double>(made_of(expansion, k, rate)));
   }
   const auto [smallest, largest] = std::minmax_element(scales.begin(), scales.end());
   const double power = std::log2(*largest / *smallest);
@@ -113,8 +117,7 @@ std::string differing_sizes(const Model& model) {
 
 Quad own_time(const Model& motion, const Real& t, const std::vector<Real>& z) {
   if (!is_short(motion)) return Quad(1);
-  // The size of a term of high degree tells the rate whatever the sizes of single coordinates are.
-  const double rate = largest_rate(expanded(motion, t, z), 6, coordinate_scales(z));
+  const double rate = rate_of(expanded(motion, t, z), z);
   if (rate == 0 || (rate <= ordinary_rate && rate >= 1 / ordinary_rate)) return Quad(1);
   const double nearest = rate > 1 ? ordinary_rate : 1 / ordinary_rate;
   return Quad(std::exp2(-std::round(std::log2(rate / nearest))));
