@@ -22,7 +22,7 @@ from frequencies import frequencies
 from recording import Recording, read_recording
 from sentence import name, names, quantity, some
 from verdict import TIE
-from wording import counted, listed, size, text
+from wording import counted, hundredths, listed, size, text
 
 AGREE, DIFFER, SHARP = 1e-3, 1e-2, 0.25
 POWERS = {0.5: "as a random walk", 1.0: "in proportion to time", 0.0: "not at all"}
@@ -45,8 +45,9 @@ def growth(verdict):
         return []
 
     def told(some):
-        return listed(f"{name(r)} (<i>t</i><sup>{found[r.label][1]:.2f} ± {found[r.label][2]:.2f}</sup>)" for r in some)
-    words = (f"rms errors of {quantity(verdict)} over {case['seeds']} seeds grow "
+        return listed(f"{name(r)} (<i>t</i><sup>{hundredths(found[r.label][1])} ± {found[r.label][2]:.2f}</sup>)" for r in some)
+    words = (at_steps(verdict, [found[r.label][0] for r in rows])
+             + f"rms errors of {quantity(verdict)} over {case['seeds']} seeds grow "
              + "; ".join(f"{words} with {told(some)}" for words, some in groups.items())
              + (f"; with {names(untold)} the power is not told" if untold else "")
              + not_counted(verdict, [r for r in verdict.rivals if r.label in gone], lambda r: gone[r.label]))

@@ -13,7 +13,7 @@ from families import style
 from figures import Drawing, heading, sentences, step_text, time_label, with_unit
 from lines import Line, Panel, draw, in_grey
 from scales import ErrorAxis, time_axis
-from wording import listed
+from wording import hundredths, listed
 
 STUDENT = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 7: 2.36, 10: 2.23, 15: 2.13, 20: 2.09, 30: 2.04, 60: 2.0}  # 95 %
 
@@ -80,7 +80,7 @@ def findings(experiment, case):
     """[(subject, sentence, [items])]: the size of the spread at the end and the power of time it grows with."""
     if not is_one(experiment, case):
         return []
-    items = [f"{run.method}: {values[-1]:.1e}, as " + ("–" if math.isnan(p) else f"t^{p:.2f}" + (
+    items = [f"{run.method}: {values[-1]:.1e}, as " + ("–" if math.isnan(p) else f"t^{hundredths(p)}" + (
         "" if math.isnan(half) else f" ± {half:.2f}"))
              for (run, _, values), (_, p, half) in zip(spreads(experiment, case), growth_of(experiment, case))]
     return [("Spread", f"Root mean square of the error of {case['conserved']} over {case['seeds']} seeds at the end, and "

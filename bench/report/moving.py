@@ -89,9 +89,13 @@ def of_points(case, row, recording):
 
 def common(verdict, shown):
     """A sentence on the step of the runs that are shown."""
-    steps = {step_key(float(r.summary["step"])) for _, r in shown if r.summary.get("step")}
-    return (f"Runs at {step_text(verdict.experiment.common_step(verdict.case), verdict.case)}, the largest step at which most methods "
-            "finish, where they differ most." if len(steps) == 1 else "Runs at the step that most methods share or the nearest to it.")
+    common_step = verdict.experiment.common_step(verdict.case)
+    if {step_key(float(r.summary["step"])) for _, r in shown if r.summary.get("step")} != {step_key(common_step)}:
+        return "Runs at the step that most methods share or the nearest to it."
+    at_it = [r for r in verdict.experiment.runs_of(verdict.case) if step_key(r.step) == step_key(common_step)]
+    most = 2 * sum(not r.failed for r in at_it) > len(verdict.experiment.labels)
+    return (f"Runs at {step_text(common_step, verdict.case)}"
+            + (", the largest step at which most methods finish, where they differ most." if most else "."))
 
 
 def portraits(verdict, shown, names):

@@ -67,6 +67,11 @@ def minus(x):
     return str(x).replace("-", "−")
 
 
+def hundredths(x):
+    """Two digits behind the point, of a power of time among others; what rounds to zero has no sign."""
+    return minus(f"{round(x, 2) + 0.0:.2f}")
+
+
 def size(x):
     """HTML: the size of an error, with one digit: 3·10^−8, 0.05, 0; a dash where there is none."""
     if math.isnan(x):

@@ -9,16 +9,11 @@
 namespace pfaff {
 
 namespace {
-constexpr double largest_error = 1e150;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 DriftAccumulator::DriftAccumulator(std::size_t capacity)
-    : capacity_(std::max<std::size_t>(capacity + capacity % 2, 64)) {
-  blocks_.reserve(capacity_);
-  values_.reserve(most_values + 1);
-  waiting_.reserve(group);
-}
+    : capacity_(std::max<std::size_t>(capacity + capacity % 2, 64)) {}
 
 void DriftAccumulator::add(double t, double error) {
   take_waiting();
@@ -33,19 +28,25 @@ void DriftAccumulator::add(double t0, double h, std::int64_t first, std::int64_t
   if (!waiting_.empty() && steps != next) take_waiting();
   if (waiting_.empty()) steps_of_waiting_ = steps;
   while (!errors.empty()) {
-    const std::size_t some = std::min(group - waiting_.size(), errors.size());
+    const std::size_t some = std::min(most_waiting - waiting_.size(), errors.size());
     waiting_.insert(waiting_.end(), errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(some));
     errors = errors.subspan(some);
-    if (waiting_.size() == group) take_waiting();
+    if (waiting_.size() == most_waiting) take_waiting();
   }
 }
 
+// Groups end where blocks do, whose lengths are powers of two.
 void DriftAccumulator::take_waiting() {
   if (waiting_.empty()) return;
   Steps& steps = steps_of_waiting_;
-  take(steps.t0 + static_cast<double>(steps.first) * steps.h, static_cast<double>(steps.stride) * steps.h,
-       waiting_);
-  steps.first += static_cast<std::int64_t>(waiting_.size()) * steps.stride;
+  const double dt = static_cast<double>(steps.stride) * steps.h;
+  while (known_length_ * capacity_ < samples_ + waiting_.size()) known_length_ *= 2;
+  for (std::size_t done = 0; done < waiting_.size();) {
+    const std::size_t some = std::min(group - samples_ % group, waiting_.size() - done);
+    take(steps.t0 + static_cast<double>(steps.first) * steps.h, dt, std::span(waiting_).subspan(done, some));
+    steps.first += static_cast<std::int64_t>(some) * steps.stride;
+    done += some;
+  }
   waiting_.clear();
 }
 
@@ -126,14 +127,24 @@ void DriftAccumulator::append(const windows::Block& some) {
     blocks_.back() = merged(blocks_.back(), some);
     return;
   }
-  if (blocks_.size() == capacity_) {
-    starts_.emplace_back(blocks_.begin(),
-                         blocks_.begin() + std::ptrdiff_t(std::min(most_at_start, capacity_)));
-    for (std::size_t i = 0; i < capacity_ / 2; ++i) blocks_[i] = merged(blocks_[2 * i], blocks_[2 * i + 1]);
-    blocks_.resize(capacity_ / 2);
-    block_length_ *= 2;
+  const bool grows = block_length_ < known_length_ && blocks_.size() >= std::min(most_at_start, capacity_);
+  if (grows || blocks_.size() == capacity_) {
+    double_length();
+    append(some);
+    return;
   }
   blocks_.push_back(some);
+}
+
+// Merges neighbours; the last block, where it is without one, goes on to be filled.
+void DriftAccumulator::double_length() {
+  starts_.emplace_back(blocks_.begin(),
+                       blocks_.begin() + std::ptrdiff_t(std::min(most_at_start, blocks_.size())));
+  const std::size_t pairs = blocks_.size() / 2;
+  for (std::size_t i = 0; i < pairs; ++i) blocks_[i] = merged(blocks_[2 * i], blocks_[2 * i + 1]);
+  if (blocks_.size() % 2 == 1) blocks_[pairs] = blocks_.back();
+  blocks_.resize(pairs + blocks_.size() % 2);
+  block_length_ *= 2;
 }
 
 Drift DriftAccumulator::result(const RoundOff& round_off) const {

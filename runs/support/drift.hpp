@@ -103,6 +103,9 @@ class DriftAccumulator {
   /// count.
   [[nodiscard]] const std::vector<windows::Block>& blocks() const { return blocks_; }
 
+  /// The largest size of an error that is taken.
+  static constexpr double largest_error = 1e150;
+
   /// Most different values of which count is kept.
   static constexpr std::size_t most_values = 40;
 
@@ -120,7 +123,8 @@ class DriftAccumulator {
     std::int64_t first = 0, stride = 1;
     friend bool operator==(const Steps&, const Steps&) = default;
   };
-  static constexpr std::size_t group = 256;
+  /// Of the samples that are taken together, and of those that wait for that: a quarter of a megabyte.
+  static constexpr std::size_t group = 256, most_waiting = 32768;
 
   void take_one(double t, double error);
   void take_waiting();
@@ -129,9 +133,11 @@ class DriftAccumulator {
   void append(const windows::Block& some);
   void note_values(std::span<const double> errors);
   [[nodiscard]] std::size_t room_in_block() const;
+  void double_length();
   [[nodiscard]] Drift result_of_taken(const RoundOff& round_off) const;
 
   std::size_t capacity_, block_length_ = 1;
+  std::size_t known_length_ = 1;  // that the samples which are taken or wait will need
   std::vector<windows::Block> blocks_;
   std::vector<std::vector<windows::Block>> starts_;  // of shorter blocks, the shortest first
   std::vector<double> values_;                       // different values, one more than most_values at most

@@ -24,16 +24,15 @@ class WatchedError {
     last_ = error;
     return true;
   }
-  /// Takes the finite errors after the steps first, first + stride, … of size h from t0.
+  /// Takes errors of at most 1e150, after the steps first, first + stride, … of size h from t0.
   void add(double t0, double h, std::int64_t first, std::int64_t stride, std::span<const double> errors) {
     drift_.add(t0, h, first, stride, errors);
-    for (const double error : errors) largest_ = std::max(largest_, std::abs(error));
     last_ = errors.back();
   }
   [[nodiscard]] Drift result(const RoundOff& round_off) const {
     Drift drift = drift_.result(round_off);
     if (drift.non_finite == 0) return drift;
-    drift.maximum = largest_;
+    drift.maximum = std::max(drift.maximum, largest_);
     drift.final_value = last_;
     drift.rms = std::numeric_limits<double>::infinity();
     return drift;
@@ -41,7 +40,8 @@ class WatchedError {
 
  private:
   DriftAccumulator drift_;
-  double largest_ = 0, last_ = 0;
+  double largest_ = 0;  // of those that came one by one, as all do that are beyond 1e150
+  double last_ = 0;
 };
 
 }  // namespace pfaff

@@ -1,6 +1,7 @@
 #include <pfaff/runs/watched/invariants.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -51,12 +52,24 @@ bool WatchedInvariants<T>::evaluate(const Block<T>& block) {
   errors_.resize(values_.size() * block.rows);
   bool fit = true;
   for (std::size_t i = 0; i < values_.size(); ++i)
-    for (std::size_t row = 0; row < block.rows; ++row) {
-      const double error = static_cast<double>(in_block_->at(row, i) - initial_[i]);
-      errors_[i * block.rows + row] = error;
-      fit = fit && std::abs(error) <= 1e150;
-    }
+    fit = errors_of(i, {errors_.data() + i * block.rows, block.rows}) && fit;
   return fit;
+}
+
+// The errors of an invariant at the rows of the block; whether drift takes each of them.
+template <class T>
+bool WatchedInvariants<T>::errors_of(std::size_t i, std::span<double> errors) const {
+  std::array<double, lanes<T>> unfit{};
+  const auto take = [&](std::size_t tile, std::size_t lane) {
+    const double error = static_cast<double>(in_block_->tile(tile)[i * lanes<T> + lane] - initial_[i]);
+    errors[tile * lanes<T> + lane] = error;
+    unfit[lane] += std::abs(error) <= DriftAccumulator::largest_error ? 0.0 : 1.0;
+  };
+  const std::size_t tiles = errors.size() / lanes<T>, rest = errors.size() % lanes<T>;
+  for (std::size_t tile = 0; tile < tiles; ++tile)
+    for (std::size_t lane = 0; lane < lanes<T>; ++lane) take(tile, lane);
+  for (std::size_t lane = 0; lane < rest; ++lane) take(tiles, lane);
+  return std::all_of(unfit.begin(), unfit.end(), [](double count) { return count == 0; });
 }
 
 template <class T>

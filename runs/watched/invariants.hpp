@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,7 @@ class WatchedInvariants {
   [[nodiscard]] InvariantsLeft left(std::int64_t steps);
 
  private:
+  [[nodiscard]] bool errors_of(std::size_t i, std::span<double> errors) const;
   [[nodiscard]] std::vector<double> ranges();
   [[nodiscard]] std::size_t to_next_looked_at() const;
   void count_samples(std::size_t count);

@@ -45,9 +45,12 @@ class Answers(Fresh):
 class Growth(Answers):
     def test_powers_and_what_they_are_called(self):
         walks(self.folder)
-        self.assertEqual(self.said("growth"), "Rms errors of the energy over 4 seeds grow as a random walk with walk (t^0.50 ± 0.00); "
+        self.assertEqual(self.said("growth"), "At step 0.1 s, rms errors of the energy over 4 seeds grow as a random walk with walk (t^0.50 ± 0.00); "
                          "in proportion to time with drift (t^1.00 ± 0.00).")
         self.denied(groups={"as a random walk": ["drift"], "in proportion to time": ["walk"], "": []})
+
+    def test_a_power_that_rounds_to_zero_has_no_sign(self):
+        self.assertEqual([wording.hundredths(p) for p in (-0.001, 0.004, -0.006, 1)], ["0.00", "0.00", "−0.01", "1.00"])
 
     def test_a_power_that_depends_on_one_seed_is_not_told(self):
         """One seed's error grows with another power, and is as large as before at the end."""
