@@ -20,6 +20,13 @@ std::string scientific(const nlohmann::json& value) {
   return value.is_null() ? "-" : formatted("%.1e", value.get<double>());
 }
 
+// A step or a time of a table. Formulas such as 2*pi/20 have as many digits as quad has, of which six are
+// shown.
+std::string shown(const std::string& number) {
+  const auto value = Real::parse(number);
+  return number.size() <= 10 || !value ? number : to_string(value->quad(), 6);
+}
+
 // True for an invariant whose drift is classed as growing although its slope is less, per step, than one unit
 // of round-off of what steps propagate; of the sum of its terms where that is not known.
 bool below_round_off(const nlohmann::json& invariant, const nlohmann::json& summary) {
@@ -42,7 +49,7 @@ struct Runs {
   bool marked = false;
 
   [[nodiscard]] std::string size_of(const ExperimentRun& run) const {
-    return run.tolerance.empty() ? run.step : "~" + run.tolerance;
+    return run.tolerance.empty() ? shown(run.step) : "~" + run.tolerance;
   }
   [[nodiscard]] std::string cost(const ExperimentRun& run) const {
     const auto nanoseconds = cost_of(run, costs, runs);
@@ -182,10 +189,11 @@ std::string results_table(const fs::path& directory, const Experiment& experimen
     const bool restricted = std::any_of(runs.begin(), runs.end(), [&](const ExperimentRun& r) {
       return r.which == &c && r.resolved.model->restricted();
     });
-    text += '\n' + paragraph(c.title + " (" + system_name(*run) + ", T = " + to_string(run->resolved.time) +
-                             (c.seeds > 0 ? ", " + std::to_string(c.seeds) + " seeds" : "") + ")" +
-                             (c.seeds > 0 || c.conserved.empty() ? "" : ", drift of " + c.conserved) +
-                             (c.error.empty() ? "" : ", error: largest relative drift of " + c.error));
+    text += '\n' +
+            paragraph(c.title + " (" + system_name(*run) + ", T = " + shown(to_string(run->resolved.time)) +
+                      (c.seeds > 0 ? ", " + std::to_string(c.seeds) + " seeds" : "") + ")" +
+                      (c.seeds > 0 || c.conserved.empty() ? "" : ", drift of " + c.conserved) +
+                      (c.error.empty() ? "" : ", error: largest relative drift of " + c.error));
     text += c.seeds > 0 ? of_case.ensemble() : of_case.motion(restricted);
     marked = marked || of_case.marked;
   }

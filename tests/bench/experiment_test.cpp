@@ -166,6 +166,18 @@ TEST_F(Experiments, TheTableMarksTrendsBelowRoundOff) {
   EXPECT_NE(table("bounded", 0).find("never rises"), std::string::npos);
 }
 
+TEST_F(Experiments, TheTableShowsSixDigitsOfFormulas) {
+  const Experiment experiment = read(
+      "[[method]]\nlabel = \"RK4\"\nintegrator = \"rk4\"\n[[case]]\nname = \"turn\"\n"
+      "system = \"harmonic-oscillator\"\ntime = \"2*pi\"\nsteps = [\"2*pi/20\", \"0.1\"]\n");
+  (void)run_experiment(experiment, directory / "out", {}, {.report = false});
+  const auto runs = expand(experiment);
+  const std::string table =
+      results_table(directory / "out", experiment, runs, read_summaries(directory / "out", runs));
+  for (const char* shown : {"T = 6.28319)", " 0.314159 ", " 0.1 "})
+    EXPECT_NE(table.find(shown), std::string::npos) << shown << table;
+}
+
 const char* const oscillator_case = R"([[case]]
 name = "damped"
 system = "damped-oscillator"
