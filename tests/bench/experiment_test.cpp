@@ -144,40 +144,6 @@ TEST_F(Experiments, TimingsAreKeptAsTheyCome) {
   EXPECT_EQ(rows()[2], first[2]);
 }
 
-TEST_F(Experiments, TheTableMarksTrendsBelowRoundOff) {
-  Experiment experiment = read(two_systems);
-  experiment.cases[0].conserved = "birkhoffian";
-  (void)run_experiment(experiment, directory / "out", {}, {.report = false});
-  const auto runs = expand(experiment);
-  auto summaries = read_summaries(directory / "out", runs);
-  const auto table = [&](const char* kind, double slope) {
-    auto& invariant = summaries[0]["invariants"][0];  // 1/2 at the start, in steps of 1/2
-    invariant["class"] = kind;
-    invariant["slope"] = slope;
-    invariant["propagated"] = 0.5;
-    return results_table(directory / "out", experiment, runs, summaries);
-  };
-  EXPECT_NE(table("linear", 1.0e-16).find("linear* "), std::string::npos);
-  EXPECT_NE(table("linear", -1.0e-16).find("* slower than one unit of round-off a step"), std::string::npos);
-  EXPECT_EQ(table("linear", -1.2e-16).find('*'), std::string::npos);
-  EXPECT_EQ(table("bounded", 1.0e-18).find('*'), std::string::npos);
-  EXPECT_NE(table("bounded", 0).find("(damped-oscillator, T = 1)"), std::string::npos);
-  experiment.cases[0].conserved = "energy";
-  EXPECT_NE(table("bounded", 0).find("never rises"), std::string::npos);
-}
-
-TEST_F(Experiments, TheTableShowsSixDigitsOfFormulas) {
-  const Experiment experiment = read(
-      "[[method]]\nlabel = \"RK4\"\nintegrator = \"rk4\"\n[[case]]\nname = \"turn\"\n"
-      "system = \"harmonic-oscillator\"\ntime = \"2*pi\"\nsteps = [\"2*pi/20\", \"0.1\"]\n");
-  (void)run_experiment(experiment, directory / "out", {}, {.report = false});
-  const auto runs = expand(experiment);
-  const std::string table =
-      results_table(directory / "out", experiment, runs, read_summaries(directory / "out", runs));
-  for (const char* shown : {"T = 6.28319)", " 0.314159 ", " 0.1 "})
-    EXPECT_NE(table.find(shown), std::string::npos) << shown << table;
-}
-
 const char* const oscillator_case = R"([[case]]
 name = "damped"
 system = "damped-oscillator"
