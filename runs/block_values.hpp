@@ -1,10 +1,10 @@
 // BlockValues: a formula of a model at all states of a block, eight states together where the scalar is
-// double.
+// double, and four times eight where its tape is replayed.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -16,8 +16,8 @@
 
 namespace pfaff {
 
-/// The values of one formula, which reads a state and gives `outputs` numbers. Eight states together give the
-/// bits that one gives alone.
+/// The values of one formula, which reads a state and gives `outputs` numbers. States that are evaluated
+/// together give the bits that one gives alone.
 template <class T>
 class BlockValues {
  public:
@@ -27,7 +27,11 @@ class BlockValues {
         one_(make_evaluator<T>(model, formula)),
         state_(static_cast<std::size_t>(model->dimension())),
         results_(outputs) {
-    if constexpr (in_lanes) lanes_ = make_evaluator_in_lanes<static_cast<int>(lanes<T>)>(model, formula);
+    if constexpr (in_lanes) {
+      lanes_ = make_evaluator_in_lanes<static_cast<int>(lanes<T>)>(model, formula);
+      wide_ = make_evaluator_in_lanes<static_cast<int>(tiles_together * lanes<T>)>(model, formula);
+      if (wide_.call != nullptr) arguments_.resize(state_.size()), wide_results_.resize(outputs);
+    }
   }
 
   /// The values at the rows of a block, which has at most `capacity` of them. Lanes behind the last row have
@@ -53,33 +57,68 @@ class BlockValues {
 
  private:
   static constexpr bool in_lanes = std::is_same_v<T, double>;
+  // An operation of a tape costs a jump, which is shared by so many tiles.
+  static constexpr std::size_t tiles_together = 4;
   using Lanes = std::conditional_t<in_lanes, Pack<8>, double>;  // the latter is not used
+  using Wide = std::conditional_t<in_lanes, Pack<8 * tiles_together>, double>;
 
   void evaluate_in_lanes(const Block<T>& block) {
     static_assert(!in_lanes || lanes<T> == 8);
+    std::size_t row = 0;
+    if (wide_.call != nullptr)
+      for (; row + tiles_together * lanes<T> <= block.rows; row += tiles_together * lanes<T>)
+        evaluate_together(block, row);
     // A tile is what packs of its numbers are in memory.
-    for (std::size_t tile = 0; tile * lanes<T> < block.rows; ++tile)
-      lanes_.call(lanes_.context, times(block, tile * lanes<T>),
-                  reinterpret_cast<const Lanes*>(block.states.tile(tile)),
-                  reinterpret_cast<Lanes*>(values_.tile(tile)));
+    for (; row < block.rows; row += lanes<T>)
+      lanes_.call(lanes_.context, times<Lanes>(block, row),
+                  reinterpret_cast<const Lanes*>(block.states.tile(row / lanes<T>)),
+                  reinterpret_cast<Lanes*>(values_.tile(row / lanes<T>)));
   }
-  // Block::time of eight rows. Lanes behind the last row have times of their own, and values of no meaning.
-  static Lanes times(const Block<T>& block, std::size_t row) {
-    if (block.times.empty()) {
-      static constexpr std::array<double, 8> numbers{0, 1, 2, 3, 4, 5, 6, 7};
-      return Lanes(block.t0) + (Lanes(static_cast<double>(block.step(row))) +
-                                Lanes::load(numbers.data()) * Lanes(static_cast<double>(block.stride))) *
-                                   Lanes(block.h);
-    }
-    Lanes t;
-    for (std::size_t lane = 0; lane < lanes<T>; ++lane)
+  // At the rows of so many tiles from a row on.
+  void evaluate_together(const Block<T>& block, std::size_t row) {
+    constexpr std::size_t tile_size = lanes<T> * sizeof(double);
+    const std::size_t first = row / lanes<T>;
+    const auto part = [](auto& of, std::size_t k) {
+      return reinterpret_cast<std::byte*>(&of) + k * tile_size;
+    };
+    for (std::size_t i = 0; i < arguments_.size(); ++i)
+      for (std::size_t k = 0; k < tiles_together; ++k)
+        std::memcpy(part(arguments_[i], k), block.states.tile(first + k) + i * lanes<T>, tile_size);
+    wide_.call(wide_.context, times<Wide>(block, row), arguments_.data(), wide_results_.data());
+    for (std::size_t i = 0; i < wide_results_.size(); ++i)
+      for (std::size_t k = 0; k < tiles_together; ++k)
+        std::memcpy(values_.tile(first + k) + i * lanes<T>, part(wide_results_[i], k), tile_size);
+  }
+  // Block::time of the rows from one on. Lanes behind the last row have times of their own, and values of no
+  // meaning.
+  template <class P>
+  static P times(const Block<T>& block, std::size_t row) {
+    if (block.times.empty())
+      return P(block.t0) +
+             (P(static_cast<double>(block.step(row))) + numbers<P>() * P(static_cast<double>(block.stride))) *
+                 P(block.h);
+    P t;
+    for (std::size_t lane = 0; lane < sizeof(P) / sizeof(double); ++lane)
       t.set(lane, block.times[std::min(row + lane, block.rows - 1)]);
     return t;
+  }
+  // 0, 1, 2, …
+  template <class P>
+  static const P& numbers() {
+    static const P made = [] {
+      P numbers;
+      for (std::size_t lane = 0; lane < sizeof(P) / sizeof(double); ++lane)
+        numbers.set(lane, static_cast<double>(lane));
+      return numbers;
+    }();
+    return made;
   }
 
   Tiles<T> values_;
   Evaluator<T> one_;
   Evaluator<Lanes> lanes_;
+  Evaluator<Wide> wide_;
+  std::vector<Wide> arguments_, wide_results_;
   std::vector<T> state_, results_;
 };
 

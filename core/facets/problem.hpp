@@ -23,7 +23,8 @@ template <class T>
 Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula formula);
 
 /// The formula at W points side by side: the author's code for packs, or a replay with them. Without a call
-/// where there is neither. Instantiated for W = 4 and 8.
+/// where there is neither. Instantiated for W = 4 and 8, and for 32, for which tapes alone are replayed: code
+/// that is compiled has no jumps for so many lanes to share.
 template <int W>
 Evaluator<Pack<W>> make_evaluator_in_lanes(const std::shared_ptr<const Model>& model, Formula formula);
 

@@ -60,7 +60,7 @@ Register root_of(const Register& x) {
 }
 }  // namespace detail
 
-/// W doubles, W = 1, 2, 4 or 8.
+/// W doubles, W a power of two.
 template <int W>
 class Pack {
  public:

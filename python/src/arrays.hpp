@@ -36,7 +36,11 @@ class Numbers {
   }
   void reserve(std::size_t capacity) {
     if (capacity <= capacity_) return;
-    void* const moved = std::realloc(data_, capacity * sizeof(double));
+    const bool large = data_ == nullptr && capacity >= page_size / 2;
+    if (large) capacity = (capacity + page_size - 1) / page_size * page_size;
+    const std::size_t bytes = capacity * sizeof(double);
+    void* const moved =
+        large ? std::aligned_alloc(page_size * sizeof(double), bytes) : std::realloc(data_, bytes);
     if (moved == nullptr) throw std::bad_alloc();
     data_ = static_cast<double*>(moved);
     capacity_ = capacity;
@@ -50,9 +54,9 @@ class Numbers {
 
  private:
   // Large memory comes in large pages where the system has them: to make room in small ones takes longer than
-  // the steps of a cheap method.
+  // the steps of a cheap method. What is reserved at once begins and ends with one.
   void ask_for_large_pages() const {
-    constexpr std::uintptr_t page = std::uintptr_t{1} << 21;
+    constexpr std::uintptr_t page = page_size * sizeof(double);
     const auto begin = (reinterpret_cast<std::uintptr_t>(data_) + page - 1) / page * page,
                end = reinterpret_cast<std::uintptr_t>(data_ + capacity_) / page * page;
     if (begin < end) (void)madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
@@ -62,6 +66,8 @@ class Numbers {
     std::swap(size_, other.size_);
     std::swap(capacity_, other.capacity_);
   }
+  static constexpr std::size_t page_size = 1 << 18;  // of a large page, in numbers
+
   double* data_ = nullptr;
   std::size_t size_ = 0, capacity_ = 0;
 };
