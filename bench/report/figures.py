@@ -68,13 +68,15 @@ def sentences(*parts):
     return " ".join(p for p in parts if p)
 
 
-def limits(tracks, frame):
-    """[(low, high)] of both axes: of all tracks (x, y) but those that leave the middle one by `frame` of its widths."""
+def limits(tracks, frame, exact=()):
+    """[(low, high)] of both axes: of all tracks (x, y) but those that leave the exact ones, or where there are none the middle one,
+    by `frame` of its widths."""
     found = []
     for k in (0, 1):
         spans = sorted((min(t[k]), max(t[k])) for t in tracks)
-        low, high = spans[len(spans) // 2]
+        known = [(min(t[k]), max(t[k])) for t in exact] or [spans[len(spans) // 2]]
+        low, high = min(s[0] for s in known), max(s[1] for s in known)
         size = frame * ((high - low) or 1)
-        kept = [s for s in spans if s[0] >= low - size and s[1] <= high + size]
+        kept = known + [s for s in spans if s[0] >= low - size and s[1] <= high + size]
         found.append((min(s[0] for s in kept), max(s[1] for s in kept)))
     return found

@@ -110,7 +110,8 @@ def portraits(verdict, shown, names):
     failed = [row.label for row, recording in shown if (recording.summary.get("status") or "converged") != "converged"]
     early = f"Ended early: {listed(failed)}." if failed else ""
     title = f"{heading(case)}: {names[1]} against {names[0]}"
-    told, behind = sentences(common(verdict, shown), whose, remarks(tracks, units), seed, early), [exact] * len(tracks) if exact else None
+    behind = [exact] * len(tracks) if exact else None
+    told = sentences(common(verdict, shown), whose, remarks(tracks, units, behind), seed, early)
     return [Drawing("motion", case, title, told, lambda wide: described(panels(tracks, names, units, wide, behind), title), "Portrait")]
 
 

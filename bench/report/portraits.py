@@ -8,6 +8,7 @@ import math
 from canvas import GREY, INK, Canvas, plain, sizes
 from figures import limits, sentences, with_unit
 from recording import coarse
+from wording import listed
 
 FRAME = 1.5  # a track that leaves the middle one by this many of its widths leaves the frame
 SHOWN = 4000  # points of a track at most
@@ -19,10 +20,10 @@ def widened(begin, size, least):
 
 
 class Frame:
-    """The axes that all panels have: of tracks [(xs, ys)], but those that leave the middle one."""
+    """The axes that all panels have: of tracks [(xs, ys)], but those that leave the exact ones, or the middle one."""
 
-    def __init__(self, tracks, units):
-        frame = limits(tracks, FRAME)
+    def __init__(self, tracks, units, exact=()):
+        frame = limits(tracks, FRAME, exact)
         self.equal = units[0] == units[1]
         pads = [0.06 * ((high - low) or 1) for low, high in frame]
         self.begin = [low - pad for (low, _), pad in zip(frame, pads)]
@@ -54,7 +55,7 @@ STEPS = {"linewidth": 0.9, "marker": ".", "markersize": 3.0, "markeredgewidth": 
 def panels(tracks, names, units, wide, behind=None, start=True, every_step=False):
     """The tracks [(label, colour, xs, ys)] on a Canvas, each in a panel with the same axes, with its track (xs, ys) of those `behind`;
     sections have no start. What has every step is joined, however far these lie apart."""
-    frame, look = Frame([t[2:] for t in tracks], units), sizes(wide)
+    frame, look = Frame([t[2:] for t in tracks], units, joined(behind)), sizes(wide)
     left, top, right, below, between = (x * look.unit for x in (72 if look.wide else 56, 24, 10, 46, 14))
     columns = min(len(tracks), (3 if len(tracks) in (3, 5, 6) else 4) if look.wide else 2)
     most = (340 if wide else 300) if isinstance(wide, bool) else look.width  # on paper a figure is as wide as was asked for
@@ -82,27 +83,35 @@ def panels(tracks, names, units, wide, behind=None, start=True, every_step=False
     return canvas
 
 
+def joined(behind):
+    """Of the tracks behind some, those that have points."""
+    return [track for track in behind or () if len(track[0])]
+
+
 def outer(canvas, axes, names, units, last, first):
     """Axes named and numbered at the edge of the panels alone: in the last row, and in the first column."""
     canvas.labels(axes, with_unit(names[0], units[0]) if last else "", with_unit(names[1], units[1]) if first else "")
     axes.tick_params(labelbottom=last, labelleft=first)
 
 
-def outside(tracks, others=()):
-    """The labels of the tracks [(label, xs, ys)] that leave the frame of all, and of others [(xs, ys)]."""
-    frame = limits([*(t[1:] for t in tracks), *others], FRAME)
+def outside(tracks, exact=()):
+    """The labels of the tracks [(label, xs, ys)] that leave the frame of all and of the exact ones [(xs, ys)]."""
+    frame = limits([t[1:] for t in tracks], FRAME, exact) if tracks else ()
     return [label for label, *track in tracks
             if any(min(v) < low or max(v) > high for v, (low, high) in zip(track, frame))]
 
 
 def leaving(labels, which=""):
     """A sentence on the tracks that leave a frame; empty where none does."""
-    return f"The track of {', '.join(labels)} leaves the frame{which}." if labels else ""
+    if not labels:
+        return ""
+    tracks = f"The track of {labels[0]} leaves" if len(labels) == 1 else f"The tracks of {listed(labels)} leave"
+    return f"{tracks} the frame{which}."
 
 
-def remarks(tracks, units):
+def remarks(tracks, units, behind=None):
     """What a reader must know of tracks in panels, in sentences."""
     return sentences("Axes are the same in all panels." if len(tracks) > 1 else "",
                      "Both axes have the same scale." if units[0] == units[1] else "", "A cross marks the start.",
                      "Points are samples that lie too far apart to be joined." if any(coarse(x, y) for *_, x, y in tracks)
-                     else "", leaving(outside([(label, x, y) for label, _, x, y in tracks])))
+                     else "", leaving(outside([(label, x, y) for label, _, x, y in tracks], joined(behind))))

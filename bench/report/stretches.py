@@ -102,10 +102,10 @@ def draw(found, rows, wide, time_unit=""):
 def frames_of(shown, chosen, units):
     """The frame of each column, and whether each has its own."""
     columns = columns_of(shown, chosen)
-    own = [Frame([*(t[1:] for t in tracks), *exact], units) for tracks, exact in columns if tracks or exact]
+    own = [Frame([t[1:] for t in tracks] or exact, units, exact) for tracks, exact in columns if tracks or exact]
     if len(own) == len(columns) and any(max(of) > OWN * min(of) for of in zip(*(frame.span for frame in own))):
         return own, True
-    return [Frame(tracks_of(shown), units)] * len(columns), False
+    return [Frame(tracks_of(shown), units, [track for _, exact in columns for track in exact])] * len(columns), False
 
 
 def columns_of(shown, chosen):
@@ -153,7 +153,8 @@ def told(verdict, found, rows):
     exact = any(math.isfinite(v) for _, one in shown for s in one.stretches.values() for v in s[3])
     chosen = [sorted(one.stretches) for _, one in shown]
     own = several and frames_of(shown, chosen, [split_unit(axis)[1] for axis in shown[0][1].axes])[1]
-    astray = {label for tracks, others in columns_of(shown, chosen) for label in outside(tracks, others)} if own else ()
+    columns = columns_of(shown, chosen)
+    astray = {label for tracks, of_column in columns for label in outside(tracks, of_column)} if own else ()
     return sentences(
         "Every step of the run, early and late: a stretch is one turn of the track, as far as it turns." if several else
         f"Every step of the run from its start{', ' + spans.pop() if len(spans) == 1 else ''}.",
@@ -163,4 +164,5 @@ def told(verdict, found, rows):
         "Axes are the same in the panels of a column, in multiples of the power of ten above it." if own else
         "Axes are the same in all panels." if several or len(shown) > 1 else "",
         leaving([row.label for row, _ in shown if row.label in astray], " of some columns") if own else
-        leaving(outside([(row.label, *track) for (row, _), track in zip(shown, tracks_of(shown))])))
+        leaving(outside([(row.label, *track) for (row, _), track in zip(shown, tracks_of(shown))],
+                        [track for _, of_column in columns for track in of_column])))

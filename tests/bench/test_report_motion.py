@@ -121,12 +121,12 @@ class Tracks(Fresh):
                 self.assertIn(told, said)
 
 
-def turning(folder, stretches=5, lost=1e3, more=0, late=None, shrinks=1.0):
+def turning(folder, stretches=5, lost=1e3, more=0, late=None, shrinks=1.0, small=0.5):
     """`circles` with stretches of twelve steps: `round` on the exact unit circle, `small` on one of half its size, `lost` far away. `late`
     has by how much later the stretches of a method begin. From one stretch to the next the motion `shrinks`, but not that of `lost`."""
     circles(folder, more=more)
     rows = [["case", "method", "step", "t", "x axis", "y axis", "stretch", "x", "y", "exact_x", "exact_y", "exact_x_between", "exact_y_between"]]
-    for label, size in (("round", 1.0), ("small", 0.5), ("lost", lost), *((f"more {k}", 1.0) for k in range(more))):
+    for label, size in (("round", 1.0), ("small", small), ("lost", lost), *((f"more {k}", 1.0) for k in range(more))):
         for stretch in range(1, (stretches[label] if isinstance(stretches, dict) else stretches) + 1):
             for k in range(13):
                 t = 20 * (stretch - 1) + k / 2 + (late or {}).get(label, 0)
@@ -191,6 +191,11 @@ class Stretches(Fresh):
     def test_what_is_far_away_leaves_the_frame_and_is_named(self):
         drawing = self.drawing()
         self.assertIn("The track of lost leaves the frame.", drawing.caption)
+        self.assertLess(drawing.draw(True).axes[0].get_xlim()[1], 10)
+
+    def test_the_frame_is_that_of_the_exact_motion_where_most_leave_it(self):
+        drawing = self.drawing(small=1e4)
+        self.assertIn("The tracks of small and lost leave the frame.", drawing.caption)
         self.assertLess(drawing.draw(True).axes[0].get_xlim()[1], 10)
 
     def test_where_the_motion_dies_away_each_column_has_its_axes(self):
