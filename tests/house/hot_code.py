@@ -8,13 +8,17 @@ OPTIMISED and OTHERS are files that list objects, one a line.
 Inline functions and templates are compiled in every source that uses them, and the linker keeps one copy of each, the
 first that it meets. Where an optimised source has a copy, the copy that is kept has to be one of those. Copies are told
 apart by their sizes: of a function whose copies differ in size between the two kinds of objects, the one in the library
-has to have a size that optimised copies have. The control links the objects in the wrong order, which must be found.
+has to have a size that optimised copies have. The control links the objects in the wrong order, of which most must be found. How
+many can be told apart depends on the processor that is compiled for; where hardly any can, nothing is shown.
 """
 import pathlib
 import subprocess
 import sys
 import tempfile
 from collections import defaultdict
+
+
+FEWEST = 30  # functions, told apart
 
 
 def weak_functions(files):
@@ -47,7 +51,7 @@ def main(library, optimised, other, compiler):
         subprocess.run([compiler, "-shared", "-o", reversed_library, *cold, *hot, "-lquadmath"], check=True)
         found, _ = wrongly_taken(reversed_library, hot, cold)
     print(f"control, linked in the wrong order: {len(found)} found")
-    return 1 if wrong or count < 100 or not found else 0
+    return 1 if wrong or count < FEWEST or len(found) < count / 2 else 0
 
 
 if __name__ == "__main__":
