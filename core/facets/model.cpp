@@ -83,16 +83,7 @@ bool Model::autonomous() const {
   return tape(Formula::field)->autonomous();
 }
 
-bool Model::frictionless() const {
-  if (!given(Formula::friction)) return true;
-  const Tape& lambda = *tape(Formula::friction);
-  for (const int slot : lambda.outputs) {
-    const Instruction& i = lambda.code[static_cast<std::size_t>(slot)];
-    if (i.operation != Operation::constant || !lambda.constants[static_cast<std::size_t>(i.a)].is(0))
-      return false;
-  }
-  return true;
-}
+bool Model::frictionless() const { return !given(Formula::friction) || tape(Formula::friction)->zero(); }
 
 std::vector<std::string> Model::constraint_names() const {
   std::vector<std::string> names;

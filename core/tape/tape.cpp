@@ -139,4 +139,11 @@ Tape Recorder::finish(std::span<const Recorded> outputs) {
   return tape;
 }
 
+bool Tape::zero() const {
+  return std::all_of(outputs.begin(), outputs.end(), [&](int slot) {
+    const Instruction& i = code[static_cast<std::size_t>(slot)];
+    return i.operation == Operation::constant && constants[static_cast<std::size_t>(i.a)].is(0);
+  });
+}
+
 }  // namespace pfaff

@@ -64,6 +64,8 @@ struct Tape {
   [[nodiscard]] bool autonomous() const;
   /// True when no output depends on the state.
   [[nodiscard]] bool state_independent() const;
+  /// True when every output is the constant 0, as it was written or folded.
+  [[nodiscard]] bool zero() const;
 };
 
 }  // namespace pfaff

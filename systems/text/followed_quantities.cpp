@@ -15,14 +15,6 @@ using Tapes = std::shared_ptr<const Tape>;
 
 bool reads_time(const Tapes& tape) { return tape != nullptr && !tape->autonomous(); }
 
-// True where every result is the constant 0, as it was written or folded.
-bool is_zero(const Tape& tape) {
-  return std::all_of(tape.outputs.begin(), tape.outputs.end(), [&](int slot) {
-    const Instruction& i = tape.code[static_cast<std::size_t>(slot)];
-    return i.operation == Operation::constant && tape.constants[static_cast<std::size_t>(i.a)] == Real(0);
-  });
-}
-
 // A function of the whole state; null where the model gives none without the time in it.
 Tapes energy_of(const ModelSource& source) {
   const auto given = [&](Formula f) { return source.given[index(f)]; };
@@ -43,7 +35,7 @@ Tapes energy_of(const ModelSource& source) {
 // False where something may take from the energy, or give to it.
 bool is_conserved(const ModelSource& source) {
   const auto given = [&](Formula f) { return source.given[index(f)]; };
-  const auto acts = [&](Formula f) { return given(f) != nullptr && !is_zero(*given(f)); };
+  const auto acts = [&](Formula f) { return given(f) != nullptr && !given(f)->zero(); };
   return (!source.damping || *source.damping == Real(0)) && !acts(Formula::friction) &&
          !acts(Formula::applied_force) &&
          (!acts(Formula::symmetric_tensor) || given(Formula::entropy) != nullptr) &&
@@ -122,7 +114,7 @@ class Followed {
 
 void leave_out_zero_offsets(ModelSource& source) {
   Tapes& offsets = source.given[index(Formula::velocity_offsets)];
-  if (offsets != nullptr && is_zero(*offsets)) offsets = nullptr;
+  if (offsets != nullptr && offsets->zero()) offsets = nullptr;
 }
 
 void add_followed_quantities(ModelSource& source) {

@@ -172,6 +172,15 @@ TEST(Recording, OrdersConstantsTimeAndState) {
   }
 }
 
+TEST(Recording, KnowsWhetherAllResultsAreZero) {
+  const auto zero = [](const auto& f) { return tape_of(f).zero(); };
+  EXPECT_TRUE(zero([](auto&, auto& x, auto&) { return x - x; }));
+  EXPECT_FALSE(zero([](auto&, auto&, auto&) { return Recorded(1); }));
+  EXPECT_FALSE(zero([](auto&, auto& x, auto&) { return x; }));
+  EXPECT_FALSE(
+      record(2, 2, [](const Recorded&, Arguments z, Results out) { out[0] = 0, out[1] = z[0]; }).zero());
+}
+
 TEST(Recording, KnowsWhatDependsOnTimeAndState) {
   const auto autonomous = [](const auto& f) { return tape_of(f).autonomous(); };
   EXPECT_TRUE(autonomous([](auto& t, auto& x, auto& y) { return x * y + 0 * t; }));
