@@ -48,14 +48,15 @@ def table(reported):
     rows = {}
     for k, (_, case) in enumerate(columns):
         for row in case["methods"]:
-            rows.setdefault((row["family"], row["method"]), {})[k] = row
+            rows.setdefault(row["method"], {})[k] = row
     order = [f.key for f in FAMILIES]
+    families = {method: usual_family(cells) for method, cells in rows.items()}
     heads = "".join(f'<th scope="col"><a href="{text(r.link)}#case-{slug({"name": case["case"]})}">'
                     f'{text(r.head["name"])}: {text(case["case"])}</a></th>' for r, case in columns)
     body = []
-    for family, method in sorted(rows, key=lambda key: (order.index(family_named(key[0]).key), claimed(rows[key]), key)):
-        cells = "".join(cell(rows[family, method].get(k), case) for k, (_, case) in enumerate(columns))
-        body.append(f'<tr><th scope="row"><span class="c-{family_named(family).key}">{text(method)}</span></th>{cells}</tr>')
+    for method in sorted(rows, key=lambda m: (order.index(families[m].key), claimed(rows[m]), m)):
+        cells = "".join(cell(rows[method].get(k), case) for k, (_, case) in enumerate(columns))
+        body.append(f'<tr><th scope="row"><span class="c-{families[method].key}">{text(method)}</span></th>{cells}</tr>')
     return ('<h2 id="methods">Methods and problems</h2><p class="where">Numbers say how many times as much as the cheapest method a '
             "method costs at the error that the sentence of the report speaks of; there is none where its runs do not lie on both "
             "sides of that error. A filled mark: it keeps the structure; an open one: it does not; half of one: this is not known. "
@@ -63,6 +64,12 @@ def table(reported):
             "cell tells more.</p>"
             '<div class="scroll" tabindex="0" role="region" aria-label="methods and problems">'
             f'<table class="overview"><thead><tr><th></th>{heads}</tr></thead><tbody>{"".join(body)}</tbody></table></div>')
+
+
+def usual_family(row):
+    """Of the problems of a method the family that it most often has: a name may stand for another method in another experiment."""
+    named = [family_named(cells["family"]) for cells in row.values()]
+    return max(named, key=named.count)
 
 
 def claimed(row):

@@ -102,6 +102,17 @@ class Index(unittest.TestCase):
         places = [source.index(f'<th scope="row"><span class="c-other">{name}<') for name in ("mid", "bad", "rk")]
         self.assertEqual(places, sorted(places))
 
+    def test_a_name_has_one_row_whatever_families_its_methods_have(self):
+        class Shown:
+            head, link = {"name": "x"}, "x"
+            def __init__(self, family):
+                self.problems = [{"case": "c", "title": "C", "methods": [
+                    {"method": "m", "family": family, "order_claimed": 2, "structure_kept": "yes", "quantity": "", "drift_class": "",
+                     "drift": None, "drifts": "no", "error": None, "failed": 0, "runs": 1, "ratio": None, "cheapest": ""}]}]
+        table = index_page.table([Shown("gauss"), Shown("other"), Shown("gauss")])
+        self.assertEqual(table.count('<th scope="row">'), 1)
+        self.assertIn('<span class="c-gauss">m</span>', table)
+
     def test_exponents_are_raised(self):
         for said, shown in (("10^−6 x", "10<sup>−6</sup> x"), ("t^0.50 ± 0.1)", "t<sup>0.50 ± 0.1</sup>)"), ("e^0.04 K.", "e<sup>0.04 K</sup>."),
                             ("a^b", "a^b")):
