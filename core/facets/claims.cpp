@@ -92,20 +92,27 @@ bool velocity_constraints(const Model& model) { return model.facets().has(Facet:
 bool linear_friction(const Model& model) { return model.facets().has(Facet::conformal); }
 
 // The trace of the field's Jacobian vanishes: always where the structure is canonical; elsewhere at random
-// points near the initial state.
+// points near the initial state, within a twentieth of the size of each coordinate, or of the largest one
+// where a coordinate is zero.
 bool divergence_free(const Model& model) {
   if (!model.moves() || model.restricted()) return false;
   if (has_canonical_structure(model)) return true;
   const auto n = static_cast<std::size_t>(model.dimension());
   if (model.initial().size() != n) return false;  // there is no point to look at
   Replay<Quad> slopes(model.tape(Formula::field_jacobian));
+  Quad largest(0);
+  for (const Real& x : model.initial()) largest = std::max(largest, abs(x.quad()));
+  if (largest == Quad(0)) largest = Quad(1);
   std::mt19937_64 random(20041);
   std::uniform_real_distribution<double> offset(-0.05, 0.05);
   std::vector<Quad> z(n), jacobian(n * n);
   for (int point = 0; point < 3; ++point) {
-    for (std::size_t k = 0; k < n; ++k) z[k] = Quad(model.initial()[k]) + Quad(offset(random));
+    for (std::size_t k = 0; k < n; ++k) {
+      const Quad x = model.initial()[k].quad();
+      z[k] = x + Quad(offset(random)) * (x == Quad(0) ? largest : abs(x));
+    }
     slopes(Quad(1 + offset(random)), z.data(), jacobian.data());
-    Quad trace(0), size(1);
+    Quad trace(0), size(0);
     for (std::size_t k = 0; k < n; ++k) {
       trace += jacobian[k * n + k];
       size += abs(jacobian[k * n + k]);

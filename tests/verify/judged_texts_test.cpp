@@ -56,6 +56,16 @@ TEST_F(JudgedTexts, AStartOffOneConstraintIsFoundBesideOneThatIsExact) {
             Names{});
 }
 
+// Whether a field has a divergence is asked near the start, in parts of its size: a hundredth, whose
+// logarithm is taken, stays positive. One that has a divergence is out of scope.
+TEST_F(JudgedTexts, VolumeIsSpokenOfInTheSizesOfTheStart) {
+  const std::string small = "coordinates = [\"x\", \"y\"]\ninitial = [0.01, 0.02]\n";
+  EXPECT_TRUE(
+      in_scope(Claim::volume, *system("free", small + "field = [\"sqrt(y)\", \"log(x)\"]\n").make({})));
+  EXPECT_FALSE(in_scope(Claim::volume,
+                        *system("spreads", small + "field = [\"sqrt(y)\", \"log(x) + y\"]\n").make({})));
+}
+
 // States beside the start are away from it by a part of its own size: those of a spring of 5 cm that cannot
 // be longer than this are shorter, and numbers of animals stay positive, whatever they are counted in.
 TEST_F(JudgedTexts, StatesBesideASmallStartStayInTheDomain) {
