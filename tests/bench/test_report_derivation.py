@@ -50,7 +50,7 @@ class Derivations(unittest.TestCase):
         self.assertEqual(self.status, 0, self.stderr)
         self.assertEqual({p.name for p in (self.folder / "figures").iterdir()},
                          {f"growth_{what}.{end}" for what in ("operations", "seconds", "tree") for end in ("svg", "png")}
-                         | {"small.svg"})
+                         | {"small.svg", "made.json"})
         for path in (self.folder / "figures").glob("*.svg"):
             xml.etree.ElementTree.parse(path)
 

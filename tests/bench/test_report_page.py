@@ -49,7 +49,8 @@ class Whole(unittest.TestCase):
         self.assertEqual(self.status, 0, self.stderr)
         kinds = {"osc": ("work_precision", "work_precision_evaluations", "drift", "drift_at_equal_step", "structure"),
                  "damped": ("structure",)}  # whose energy falls, and never rises
-        expected = {f"{kind}_{case}.{end}" for case, some in kinds.items() for kind in some for end in ("svg", "png")} | {"small.svg"}
+        expected = {f"{kind}_{case}.{end}" for case, some in kinds.items() for kind in some for end in ("svg", "png")} | {
+            "small.svg", "made.json"}
         self.assertEqual({p.name for p in (self.folder / "figures").iterdir()}, expected)
         self.assertEqual({p.name for p in self.folder.iterdir()},  # and no temporary name is left
                          {"experiment.json", "results.csv", "cost.csv", "runs", "figures", "report.html", "report.json",
