@@ -28,9 +28,13 @@ class BlockValues {
         state_(static_cast<std::size_t>(model->dimension())),
         results_(outputs) {
     if constexpr (in_lanes) {
-      lanes_ = make_evaluator_in_lanes<static_cast<int>(lanes<T>)>(model, formula);
       wide_ = make_evaluator_in_lanes<static_cast<int>(tiles_together * lanes<T>)>(model, formula);
-      if (wide_.call != nullptr) arguments_.resize(state_.size()), wide_results_.resize(outputs);
+      if (wide_.call != nullptr) {
+        arguments_.resize(state_.size());
+        wide_results_.resize(outputs);
+      } else {
+        lanes_ = make_evaluator_in_lanes<static_cast<int>(lanes<T>)>(model, formula);
+      }
     }
   }
 
@@ -38,7 +42,7 @@ class BlockValues {
   /// no meaning.
   [[nodiscard]] const Tiles<T>& operator()(const Block<T>& block) {
     if constexpr (in_lanes)
-      if (lanes_.call != nullptr) {
+      if (wide_.call != nullptr || lanes_.call != nullptr) {
         evaluate_in_lanes(block);
         return values_;
       }
@@ -64,29 +68,31 @@ class BlockValues {
 
   void evaluate_in_lanes(const Block<T>& block) {
     static_assert(!in_lanes || lanes<T> == 8);
-    std::size_t row = 0;
-    if (wide_.call != nullptr)
-      for (; row + tiles_together * lanes<T> <= block.rows; row += tiles_together * lanes<T>)
-        evaluate_together(block, row);
+    if (wide_.call != nullptr) {
+      for (std::size_t row = 0; row < block.rows; row += tiles_together * lanes<T>) evaluate_wide(block, row);
+      return;
+    }
     // A tile is what packs of its numbers are in memory.
-    for (; row < block.rows; row += lanes<T>)
+    for (std::size_t row = 0; row < block.rows; row += lanes<T>)
       lanes_.call(lanes_.context, times<Lanes>(block, row),
                   reinterpret_cast<const Lanes*>(block.states.tile(row / lanes<T>)),
                   reinterpret_cast<Lanes*>(values_.tile(row / lanes<T>)));
   }
-  // At the rows of so many tiles from a row on.
-  void evaluate_together(const Block<T>& block, std::size_t row) {
+  // At the rows of so many tiles from a row on; copies of the last one stand for those that are missing.
+  void evaluate_wide(const Block<T>& block, std::size_t row) {
     constexpr std::size_t tile_size = lanes<T> * sizeof(double);
-    const std::size_t first = row / lanes<T>;
+    const std::size_t first = row / lanes<T>,
+                      there = std::min(tiles_together, (block.rows - 1) / lanes<T> + 1 - first);
     const auto part = [](auto& of, std::size_t k) {
       return reinterpret_cast<std::byte*>(&of) + k * tile_size;
     };
     for (std::size_t i = 0; i < arguments_.size(); ++i)
       for (std::size_t k = 0; k < tiles_together; ++k)
-        std::memcpy(part(arguments_[i], k), block.states.tile(first + k) + i * lanes<T>, tile_size);
+        std::memcpy(part(arguments_[i], k), block.states.tile(first + std::min(k, there - 1)) + i * lanes<T>,
+                    tile_size);
     wide_.call(wide_.context, times<Wide>(block, row), arguments_.data(), wide_results_.data());
     for (std::size_t i = 0; i < wide_results_.size(); ++i)
-      for (std::size_t k = 0; k < tiles_together; ++k)
+      for (std::size_t k = 0; k < there; ++k)
         std::memcpy(values_.tile(first + k) + i * lanes<T>, part(wide_results_[i], k), tile_size);
   }
   // Block::time of the rows from one on. Lanes behind the last row have times of their own, and values of no

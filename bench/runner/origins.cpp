@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <map>
+#include <mutex>
 #include <typeinfo>
 
 #include <pfaff/bench/runner/json.hpp>
@@ -63,7 +65,13 @@ bool is_shipped(const LoadedObject& object) {
 LoadedObject object_of(const Plugin& plugin) {
   const bool of_file = dynamic_cast<const MethodTable*>(&plugin) != nullptr ||
                        dynamic_cast<const TextSystem*>(&plugin) != nullptr;
-  return of_file ? object_holding(&typeid(plugin)) : object_holding(&plugin);
+  const void* const address = of_file ? static_cast<const void*>(&typeid(plugin)) : &plugin;
+  // To look through all objects takes as long as a short run, and none is ever unloaded.
+  static std::mutex mutex;
+  static std::map<const void*, LoadedObject> known;
+  const std::lock_guard lock(mutex);
+  const auto place = known.find(address);
+  return place != known.end() ? place->second : known.emplace(address, object_holding(address)).first->second;
 }
 
 const Plugin* plugin_of(const std::string& kind, const std::string& name) {

@@ -285,8 +285,8 @@ void check_objects(ResolvedRun& run, const RunObjects& objects) {
   check_independence(*objects.whole, run);
   check_consistency(settings, run);
   settings.precision == Precision::quad ? check_domain_of<Quad>(run) : check_domain_of<double>(run);
-  check_stated_identities(*objects.whole, run.t0, run.initial);
-  run.not_conserved = not_conserved(*objects.whole, run.t0, run.initial);
+  check_stated_identities(objects.whole, run.t0, run.initial);
+  run.not_conserved = not_conserved(objects.whole, run.t0, run.initial);
   resolve_steps(run);
 }
 }  // namespace

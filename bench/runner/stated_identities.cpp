@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <mutex>
 
 #include <pfaff/core/linear/lu.hpp>
 #include <pfaff/core/numbers/formatted.hpp>
@@ -156,7 +158,43 @@ std::vector<StatedIdentity> written_formulas(const Model& model) {
   return all;
 }
 
-void check_stated_identities(const Model& model, const Real& t, const std::vector<Real>& z) {
+namespace {
+// What a model states, as expressions.
+struct Stated {
+  std::vector<StatedIdentity> identities;
+  std::vector<std::size_t> conserved;  // invariants,
+  std::shared_ptr<const Tape> rates;   // and theirs; null where there are none
+};
+
+// Recording them takes as long as many a run, so that those of the models that were looked at last are kept.
+std::shared_ptr<const Stated> stated_by(const std::shared_ptr<const Model>& model) {
+  struct Kept {
+    std::weak_ptr<const Model> model;
+    std::shared_ptr<const Stated> stated;
+  };
+  constexpr std::size_t most = 8;
+  static std::mutex mutex;
+  static std::deque<Kept> kept;
+  {
+    const std::lock_guard lock(mutex);
+    std::erase_if(kept, [](const Kept& one) { return one.model.expired(); });
+    for (const Kept& one : kept)
+      if (one.model.lock() == model) return one.stated;
+  }
+  const std::vector<std::size_t> conserved = conserved_everywhere(*model);
+  const auto stated = std::make_shared<const Stated>(
+      Stated{identities_of(*model), conserved,
+             conserved.empty() ? nullptr : rates_of_invariants(*model, conserved)});
+  const std::lock_guard lock(mutex);
+  kept.push_front({model, stated});
+  if (kept.size() > most) kept.pop_back();
+  return stated;
+}
+}  // namespace
+
+void check_stated_identities(const std::shared_ptr<const Model>& of, const Real& t,
+                             const std::vector<Real>& z) {
+  const Model& model = *of;
   if (model.dimension() > most_coordinates) return;
   if (model.facets().has(Facet::structure)) {
     const auto structure = model.tape(Formula::structure);
@@ -164,7 +202,7 @@ void check_stated_identities(const Model& model, const Real& t, const std::vecto
       throw InputError("system " + model.name() +
                        ": K is singular at the initial state; expected a regular matrix");
   }
-  for (const StatedIdentity& stated : identities_of(model)) {
+  for (const StatedIdentity& stated : stated_by(of)->identities) {
     const NearStart residuals = near_start(stated.residual, t, z);
     const double first = relative_to_terms(residuals.here), second = relative_to_terms(residuals.beside);
     if (std::max(first, second) <= most_off) continue;
@@ -175,10 +213,13 @@ void check_stated_identities(const Model& model, const Real& t, const std::vecto
   }
 }
 
-std::string not_conserved(const Model& model, const Real& t, const std::vector<Real>& z) {
-  const std::vector<std::size_t> conserved = conserved_everywhere(model);
-  if (conserved.empty() || model.dimension() > most_coordinates) return {};
-  const NearStart rates = near_start(rates_of_invariants(model, conserved), t, z);
+std::string not_conserved(const std::shared_ptr<const Model>& of, const Real& t, const std::vector<Real>& z) {
+  const Model& model = *of;
+  if (model.dimension() > most_coordinates) return {};
+  const auto stated = stated_by(of);
+  const std::vector<std::size_t>& conserved = stated->conserved;
+  if (conserved.empty()) return {};
+  const NearStart rates = near_start(stated->rates, t, z);
   std::string names;
   int count = 0;
   double worst = 0;

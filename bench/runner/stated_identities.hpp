@@ -53,12 +53,14 @@ std::shared_ptr<const Tape> rates_of_invariants(const Model& model, const std::v
 /// at one state near it: where a residual is more than a millionth of its terms, which no rounding is, nor a
 /// constant of seven digits. Where a formula has no value nothing is said. Systems of more than 64
 /// coordinates are not looked at, since deriving their formulas takes longer than a short run.
-void check_stated_identities(const Model& model, const Real& t, const std::vector<Real>& z);
+void check_stated_identities(const std::shared_ptr<const Model>& model, const Real& t,
+                             const std::vector<Real>& z);
 
 /// What is said to be conserved and has a rate at (t, z) or at one state near it, by the same measure, a
 /// sentence without a full stop; empty where nothing has. It is said and not refused, since the drift of what
 /// is conserved nearly may be what somebody wants to see. Systems with constraints are not looked at, whose
 /// invariants are conserved on the constraints alone.
-std::string not_conserved(const Model& model, const Real& t, const std::vector<Real>& z);
+std::string not_conserved(const std::shared_ptr<const Model>& model, const Real& t,
+                          const std::vector<Real>& z);
 
 }  // namespace pfaff
