@@ -29,6 +29,8 @@ void DriftAccumulator::add(double t0, double h, std::int64_t first, std::int64_t
   if (waiting_.empty()) steps_of_waiting_ = steps;
   while (!errors.empty()) {
     const std::size_t some = std::min(most_waiting - waiting_.size(), errors.size());
+    if (waiting_.size() + some > waiting_.capacity())
+      waiting_.reserve(waiting_.capacity() == 0 ? std::max(first_room, some) : most_waiting);
     waiting_.insert(waiting_.end(), errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(some));
     errors = errors.subspan(some);
     if (waiting_.size() == most_waiting) take_waiting();

@@ -125,6 +125,7 @@ class DriftAccumulator {
   };
   /// Of the samples that are taken together, and of those that wait for that: a quarter of a megabyte.
   static constexpr std::size_t group = 256, most_waiting = 32768;
+  static constexpr std::size_t first_room = 4096;  // for them, in a run that may be short
 
   void take_one(double t, double error);
   void take_waiting();

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <vector>
 
+#include <pfaff/core/facets/tile_rows.hpp>
+
 namespace pfaff {
 
 /// The largest size of every coordinate over the first samples of a run. How many these are is known only
@@ -30,10 +32,30 @@ class EarlyExtents {
     kept_.push_back({samples_, extents_});
     changed_ = false;
   }
-  /// Counts samples behind those that are looked at.
-  void pass(std::size_t samples) { samples_ += samples; }
-  /// Whether the next sample is looked at.
-  [[nodiscard]] bool looks() const { return samples_ < planned_; }
+  /// Adds rows of a block, behind the first sample.
+  template <class T>
+  void add(const Tiles<T>& states, const ChosenRows& rows) {
+    for (std::size_t k = 0; k < rows.count;) {
+      if (samples_ >= planned_) {
+        samples_ += rows.count - k;
+        return;
+      }
+      const bool whole = rows.apart == 1 && rows[k] % lanes<T> == 0 && k + lanes<T> <= rows.count;
+      if (whole && !changed_ && within(states.tile(rows[k] / lanes<T>))) {
+        samples_ += lanes<T>;
+        k += lanes<T>;
+        continue;
+      }
+      add(state(states, rows[k++]));
+    }
+  }
+  /// The state in a row, in double.
+  template <class T>
+  const std::vector<double>& state(const Tiles<T>& states, std::size_t row) {
+    state_.resize(states.components());
+    for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = static_cast<double>(states.at(row, i));
+    return state_;
+  }
   /// Those of the first tenth of all samples, and of eight at least.
   [[nodiscard]] std::vector<double> first_tenth() const {
     std::vector<double> extents(extents_.size());
@@ -47,12 +69,22 @@ class EarlyExtents {
     std::size_t samples;
     std::vector<double> extents;
   };
+  // Whether none of the states in a tile goes beyond the extents.
+  template <class T>
+  [[nodiscard]] bool within(const T* tile) const {
+    bool all = true;
+    for (std::size_t i = 0; i < extents_.size(); ++i)
+      for (std::size_t lane = 0; lane < lanes<T>; ++lane)
+        all = all && !(abs(tile[i * lanes<T> + lane]) > T(extents_[i]));
+    return all;
+  }
   static std::size_t early(std::size_t samples) { return std::max<std::size_t>(8, samples / 10); }
 
   std::size_t planned_, samples_ = 0;
   std::vector<double> extents_;
   bool changed_ = false;  // since extents were last kept
   std::vector<Kept> kept_;
+  std::vector<double> state_;
 };
 
 }  // namespace pfaff

@@ -99,18 +99,15 @@ void WatchedInvariants<T>::sample(double t, const std::vector<double>& z) {
 
 template <class T>
 void WatchedInvariants<T>::sample(const Block<T>& block, const ChosenRows& rows) {
-  at_row_.resize(first_state_.size());
+  extents_.add(block.states, rows);
   for (std::size_t k = 0; k < rows.count; ++k) {
-    if (!extents_.looks()) {
-      const std::size_t passed = std::min(to_next_looked_at(), rows.count - k);
-      count_samples(passed);
-      extents_.pass(passed);
-      k += passed;
-      if (k == rows.count) return;
-    }
-    for (std::size_t i = 0; i < at_row_.size(); ++i)
-      at_row_[i] = static_cast<double>(block.states.at(rows[k], i));
-    sample(static_cast<double>(block.time(rows[k])), at_row_);
+    const std::size_t passed = std::min(to_next_looked_at(), rows.count - k);
+    count_samples(passed);
+    k += passed;
+    if (k == rows.count) return;
+    if (roundings_)
+      roundings_->add(static_cast<double>(block.time(rows[k])), extents_.state(block.states, rows[k]));
+    count_samples(1);
   }
 }
 

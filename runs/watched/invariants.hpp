@@ -80,7 +80,6 @@ class WatchedInvariants {
   std::size_t apart_ = 1;  // the distance, in samples, of those at which roundings are found; a power of two
   EarlyExtents extents_;
   double first_time_ = 0;
-  std::vector<double> at_row_;  // the state
   std::vector<double> first_state_;
 };
 

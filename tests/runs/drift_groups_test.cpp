@@ -69,19 +69,19 @@ void expect_same(const Drift& one, const Drift& other) {
 }
 
 TEST(DriftGroups, NoDigitDependsOnHowErrorsCome) {
-  for (const std::size_t count : {100U, 9001U})
+  for (const std::size_t count : {100U, 9001U, 70001U})
     for (const auto& errors : series(count)) {
       const Drift whole = in_groups(errors, {errors.size()});
       for (const std::vector<std::size_t>& sizes :
-           {std::vector<std::size_t>{1}, {7}, {256}, {255, 1, 300}, {16, 4000}})
+           {std::vector<std::size_t>{1}, {7}, {256}, {255, 1, 300}, {16, 4000}, {40000}})
         expect_same(in_groups(errors, sizes), whole);
     }
 }
 
-// Sums and times are rounded in another order: means agree to what 9000 roundings make, 1e-11 of the sizes
+// Sums and times are rounded in another order: means agree to what 70000 roundings make, 1e-11 of the sizes
 // that they are made of, slopes to the rounding of times, 1e-9. Extremes, counts and classes are the same.
 TEST(DriftGroups, AgreeWithErrorsOneByOne) {
-  for (const std::size_t count : {40U, 9001U})
+  for (const std::size_t count : {40U, 9001U, 70001U})
     for (const auto& errors : series(count)) {
       const Drift together = in_groups(errors, {errors.size()}), apart = one_by_one(errors);
       const double span = h * static_cast<double>(count);

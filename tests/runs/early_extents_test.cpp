@@ -28,6 +28,30 @@ std::vector<double> found(std::size_t planned, std::size_t samples) {
   return extents.first_tenth();
 }
 
+// The first sample alone, the others in blocks of whose rows every one or every third is a sample.
+std::vector<double> found_in_blocks(std::size_t planned, std::size_t samples, std::size_t apart) {
+  EarlyExtents extents(planned);
+  extents.add(state(0));
+  constexpr std::size_t most = 256;
+  for (std::size_t done = 1; done < samples;) {
+    const std::size_t count = std::min(samples - done, (most - done % 5 + apart - 1) / apart);
+    pfaff::Tiles<double> states(2, most + 5);
+    const pfaff::ChosenRows rows{done % 5, count, apart};
+    for (std::size_t k = 0; k < count; ++k) states.put(rows[k], state(done + k).data());
+    extents.add(states, rows);
+    done += count;
+  }
+  return extents.first_tenth();
+}
+
+TEST(EarlyExtents, DoNotDependOnHowSamplesCome) {
+  for (const std::size_t planned : {100, 5000, 100001})
+    for (const std::size_t samples : {7, 90, 1300, 5000})
+      for (const std::size_t apart : {1, 3})
+        EXPECT_EQ(found_in_blocks(planned, samples, apart), found(planned, samples))
+            << planned << ' ' << samples << ' ' << apart;
+}
+
 TEST(EarlyExtents, OfRunsThatGoToTheirEnd) {
   for (const std::size_t samples : {1, 5, 79, 80, 1001, 12345, 100001})
     EXPECT_EQ(found(samples, samples),
