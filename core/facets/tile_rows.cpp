@@ -45,7 +45,16 @@ void copy_rows(const Tiles<double>& from, const ChosenRows& rows, double* to) {
 void copy_rows(const Tiles<Quad>& from, const ChosenRows& rows, double* to) {
   copy_one_by_one(from, rows, to);
 }
-void copy_times(const Block<double>& of, const ChosenRows& rows, double* to) { times_of(of, rows, to); }
+void copy_times(const Block<double>& of, const ChosenRows& rows, double* to) {
+  if (!of.times.empty() || rows.count == 0) {
+    times_of(of, rows, to);
+    return;
+  }
+  // Numbers of steps are exact as doubles.
+  const auto first = static_cast<double>(of.step(rows.first)),
+             apart = static_cast<double>(rows.apart) * static_cast<double>(of.stride);
+  for (int k = 0; k < static_cast<int>(rows.count); ++k) to[k] = of.t0 + (first + k * apart) * of.h;
+}
 void copy_times(const Block<Quad>& of, const ChosenRows& rows, double* to) { times_of(of, rows, to); }
 
 }  // namespace pfaff

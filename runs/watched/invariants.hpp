@@ -75,7 +75,7 @@ class WatchedInvariants {
   std::vector<T> values_, initial_;
   std::vector<WatchedError> drift_;
   std::vector<Setback<T>> setbacks_;
-  static constexpr std::size_t most_roundings = 1024;  // at one distance
+  static constexpr std::size_t most_roundings = 256;  // at one distance
   std::size_t samples_ = 0;
   std::size_t apart_ = 1;  // the distance, in samples, of those at which roundings are found; a power of two
   EarlyExtents extents_;
