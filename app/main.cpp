@@ -116,7 +116,8 @@ void load_plugins(const Common& common) {
 }
 
 // Says what is wrong in one line on stderr.
-void complain(std::string_view text) { std::cerr << "pfaff: " << printable(on_one_line(text)) << '\n'; }
+// A line is one write, which other processes that write there do not break.
+void complain(std::string_view text) { std::cerr << "pfaff: " + printable(on_one_line(text)) + "\n"; }
 
 // CLI11 takes what follows an option for its value even where that is an option itself: `--out -h` would
 // write to a directory of this name. Says so; empty where no option stands in the place of a value.

@@ -100,9 +100,9 @@ ResolvedRun resolved_run(const RunOptions& options) {
 int finish(const nlohmann::json& j, const std::string& text, bool measures = false) {
   std::cout << text;
   if (j["status"] == "converged") return 0;
-  std::cerr << "pfaff: the run ended early: " << j["message"].get<std::string>() << " ("
-            << j["status"].get<std::string>() << "); completed samples are kept"
-            << (measures && left_unmeasured(j) ? ", nothing was measured\n" : "\n");
+  std::cerr << "pfaff: the run ended early: " + j["message"].get<std::string>() + " (" +
+                   j["status"].get<std::string>() + "); completed samples are kept" +
+                   (measures && left_unmeasured(j) ? ", nothing was measured\n" : "\n");
   return 1;
 }
 
@@ -169,7 +169,7 @@ int run_to_standard_output(const ResolvedRun& resolved, const Common& common) {
     writer.finish();
   }
   require_written_output();
-  if (j.contains("reference_ended") && !common.quiet) std::cerr << "pfaff: " << of_the_reference(j) << '\n';
+  if (j.contains("reference_ended") && !common.quiet) std::cerr << "pfaff: " + of_the_reference(j) + "\n";
   return finish(j, "");
 }
 
@@ -204,7 +204,7 @@ int run(const RunOptions& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
   const Measures measures = fitting_measures(options.measures, options.out, resolved);
   for (const std::string& said : {other_duration(resolved), resolved.not_conserved})
-    if (!said.empty() && !common.quiet) std::cerr << "pfaff: " << said << '\n';
+    if (!said.empty() && !common.quiet) std::cerr << "pfaff: " + said + "\n";
   if (options.out == "-") return run_to_standard_output(resolved, common);
   const std::filesystem::path directory = options.out;
   std::vector<std::string> ours = run_file_names();
