@@ -198,6 +198,9 @@ class Method final : public MethodPlugin {
                   const std::source_location& where = std::source_location::current())
       : MethodPlugin(std::move(descriptor), parameters_of<M>(), typeid(M), where) {
     detail::check_method_members<M>();
+    static_assert(!detail::StepsInScalars<M> || needs_of<M>().bits != 0,
+                  "step: expected the concept of the facet that it needs, as in template <HasVectorField P>: "
+                  "with template <class P> it would step on systems whose motion it does not know");
     detail::leave_code_of_method<M>();
     integrators().add(this);
   }

@@ -1,5 +1,7 @@
 #include <pfaff/core/facets/formula_rules.hpp>
 
+#include <algorithm>
+
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/model.hpp>
 
@@ -32,7 +34,34 @@ std::optional<BrokenRule> broken_rule(const FormulaMembers& has) {
   return std::nullopt;
 }
 
+namespace {
+// What stands at the head of a column and before '=': other letters would break tables and files.
+bool names_a_column(const std::string& name) {
+  const bool plain = std::none_of(name.begin(), name.end(), [](char c) {
+    return c == ',' || c == '"' || c == '=' || static_cast<unsigned char>(c) < ' ' || c == '\x7f';
+  });
+  return plain && !name.empty() && name.front() != ' ' && name.back() != ' ';
+}
+
+template <class Named>
+void check_names(const std::string& system, const char* kind, const std::vector<Named>& list) {
+  for (auto one = list.begin(); one != list.end(); ++one) {
+    const std::string what = "system " + system + ": the name '" + on_one_line(one->name) + "' of " + kind;
+    if (!names_a_column(one->name))
+      throw InputError(what + "; expected letters without commas, quotation marks and '='");
+    if (std::any_of(list.begin(), one, [&](const Named& other) { return other.name == one->name; }))
+      throw InputError(what + " stands twice; expected names that differ");
+  }
+}
+}  // namespace
+
 void check_source(const ModelSource& source) {
+  check_names(source.name, "a coordinate", source.coordinates);
+  check_names(source.name, "an invariant", source.invariants);
+  const std::size_t named = source.coordinates.size();
+  if (named != 0 && named != static_cast<std::size_t>(source.dimension))
+    throw InputError("system " + source.name + " names " + std::to_string(named) + " coordinates; expected " +
+                     std::to_string(source.dimension));
   if (const auto broken = broken_rule(members_of(source)))
     throw InputError("system " + source.name + ": " + std::string(broken->message));
 }

@@ -28,6 +28,9 @@ Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula f
 template <int W>
 Evaluator<Pack<W>> make_evaluator_in_lanes(const std::shared_ptr<const Model>& model, Formula formula);
 
+/// InputError where a model offers no facet that the formula is of.
+void require_offered(const Model& model, Formula formula);
+
 /// The work a method has done. StaticProblem, made for speed, does not count it.
 struct Counters {
   std::int64_t steps = 0;
@@ -54,8 +57,11 @@ class Problem {
   [[nodiscard]] const std::shared_ptr<const Model>& model() const { return model_; }
 
   /// Makes an evaluator before the first step, so that no step allocates. Not inlined, so that this code,
-  /// which runs once, does not swell every place that evaluates a formula.
+  /// which runs once, does not swell every place that evaluates a formula. InputError for a formula that
+  /// speaks of another motion than the model's: a step whose signature names a weaker concept than what it
+  /// calls would move without constraints, friction or applied forces.
   [[gnu::noinline]] void prepare(Formula formula) const {
+    require_offered(*model_, formula);
     evaluators_[index(formula)] = make_evaluator<T>(model_, formula);
   }
 

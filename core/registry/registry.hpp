@@ -54,12 +54,15 @@ class Registry final : public RegistrationFaults {
  public:
   /// Adds a plug-in with static lifetime.
   void add(const P* plugin) {
-    if constexpr (requires { plugin->parameters(); })
-      for (const auto& parameter : plugin->parameters())
-        if (!is_kebab_case(parameter.name)) {
-          refuse(*plugin, "parameter", parameter.name);
-          return;
-        }
+    if constexpr (requires { plugin->parameters(); }) {
+      std::vector<std::string> taken;
+      for (const auto& parameter : plugin->parameters()) {
+        if (!is_kebab_case(parameter.name)) return refuse(*plugin, "parameter", parameter.name);
+        if (std::find(taken.begin(), taken.end(), parameter.name) != taken.end())
+          return refuse(*plugin, "parameter", parameter.name, "names that differ");
+        taken.push_back(parameter.name);
+      }
+    }
     insert(plugin, plugins_, aliases_);
   }
   /// Adds another name for a plug-in, itself of the plug-in's kind: it is found by its name and not listed.
@@ -130,9 +133,10 @@ class Registry final : public RegistrationFaults {
     list.insert(place_of(name, list), plugin);
   }
 
-  void refuse(const P& plugin, std::string_view what, const std::string& text) {
+  void refuse(const P& plugin, std::string_view what, const std::string& text,
+              std::string_view expected = "kebab-case, such as 'damped-pendulum'") {
     misnamed_.push_back(plugin.name() + " in " + plugin.file() + ": the " + std::string(what) + " '" + text +
-                        "'; expected kebab-case, such as 'damped-pendulum'");
+                        "'; expected " + std::string(expected));
   }
 
   List plugins_, aliases_;
