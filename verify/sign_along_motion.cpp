@@ -4,12 +4,15 @@
 #include <cmath>
 #include <utility>
 
+#include <pfaff/core/errors/budget.hpp>
 #include <pfaff/core/tape/replay.hpp>
 #include <pfaff/verify/step_scale.hpp>
 
 namespace pfaff {
 
 namespace {
+constexpr std::int64_t most_steps_followed = 8192;
+
 // The rate at times of the motion.
 class RateOfMotion {
  public:
@@ -76,6 +79,9 @@ const ReferenceSolution& FollowedMotion::solution() {
   if (!solution_) {
     const std::vector<Real>& start = region_.centres.front();
     duration_ = Quad(own_times_followed(*model_)) * own_time(*model_, generic_time_of(*model_), start);
+    // A motion that gets ever faster is followed as far as so many steps lead, some seconds at most; sixteen
+    // turns of one that does not take some hundred.
+    const Budget budget({.steps = most_steps_followed});
     solution_.emplace(model_, begin_, std::vector<Quad>(start.begin(), start.end()), duration_);
   }
   return *solution_;

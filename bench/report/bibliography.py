@@ -3,14 +3,17 @@ import pathlib
 import re
 
 
-def entries(keys):
-    """{key: entry} of those keys that references.bib has; it stands beside the scripts, or at the root of the sources."""
+def file():
+    """The path of references.bib, which stands beside the scripts, or at the root of the sources; None where it does not."""
     here = pathlib.Path(__file__).resolve().parent
-    for path in (here.parent / "references.bib", here.parents[1] / "references.bib"):
-        if path.exists():
-            found = re.findall(r"^(@\w+\{([^,\s]+),.*?^\})", path.read_text(encoding="utf-8"), flags=re.M | re.S)
-            return {key: entry for entry, key in found if key in keys}
-    return {}
+    return next((path for path in (here.parent / "references.bib", here.parents[1] / "references.bib") if path.exists()), None)
+
+
+def entries(keys):
+    """{key: entry} of those keys that references.bib has."""
+    path = file()
+    found = re.findall(r"^(@\w+\{([^,\s]+),.*?^\})", path.read_text(encoding="utf-8"), flags=re.M | re.S) if path else []
+    return {key: entry for entry, key in found if key in keys}
 
 
 def link(entry):

@@ -9,6 +9,7 @@ import json
 import pathlib
 import sys
 
+import bibliography
 from command import write
 
 RECORD = "figures/made.json"
@@ -34,15 +35,19 @@ def made_of(folder):
     """A digest of everything that a report depends on: the files of the experiment, the scripts, and what they use."""
     scripts = pathlib.Path(__file__).parent
     found = hashlib.sha256(f"{sys.version} {importlib.metadata.version('matplotlib')}".encode())
-    for root, files in ((scripts, [path for path in files_in(scripts) if path.suffix != ".pyc"]), (folder, inputs(folder))):
+    works = bibliography.file()
+    for root, files in ((scripts, [path for path in files_in(scripts) if path.suffix != ".pyc"]), (folder, inputs(folder)),
+                        *([(works.parent, [works])] if works else [])):
         for path in files:
             found.update(f"{path.relative_to(root).as_posix()} {digest(path)}\n".encode())
     return found.hexdigest()
 
 
 def inputs(folder):
-    return [path for path in files_in(folder)
-            if path.relative_to(folder).parts[0] != "figures" and path.relative_to(folder).as_posix() not in PAGES]
+    """The tables and descriptions of an experiment and of its runs, and not what `pfaff plot` or somebody else has put beside them."""
+    own = ("", "measures", "runs/*", "runs/*/measures", "equal-cost/*")
+    found = [path for place in own for kind in ("*.csv", "*.json") for path in sorted(folder.glob(f"{place}/{kind}".lstrip("/")))]
+    return [path for path in found if path.relative_to(folder).as_posix() not in PAGES]
 
 
 def is_kept(folder, of):

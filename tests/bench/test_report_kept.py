@@ -24,6 +24,9 @@ class Kept(Fresh):
         return making.called
 
     def test_what_has_not_changed_stays(self):
+        for name in ("runs/osc-0-0.1/plot/report.html", "notes.txt"):  # of nobody's making, or of the plot of a run
+            (self.folder / name).parent.mkdir(exist_ok=True)
+            (self.folder / name).write_text("x")
         self.assertFalse(self.made())
 
     def assert_made_anew_after(self, name, changed):
@@ -48,6 +51,14 @@ class Kept(Fresh):
         (self.folder / "report.html").unlink()
         self.assertTrue(self.made())
         self.assertEqual((self.folder / "report.html").read_bytes(), page)
+
+    def test_the_works_that_it_names(self):
+        before = kept.made_of(self.folder)
+        with tempfile.TemporaryDirectory() as other:
+            path = pathlib.Path(other) / "references.bib"
+            path.write_text("@book{a,\n}\n")
+            with unittest.mock.patch.object(kept.bibliography, "file", return_value=path):
+                self.assertNotEqual(kept.made_of(self.folder), before)
 
     def test_the_scripts(self):
         before = kept.made_of(self.folder)
