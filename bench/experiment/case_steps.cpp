@@ -39,6 +39,11 @@ void read_steps(Keys& keys, ExperimentCase& one) {
 
 std::string without_sign(const std::string& step) { return step.substr(step.starts_with('-') ? 1 : 0); }
 
+std::string as_decimal(const std::string& number) {
+  const auto value = number.find('/') == std::string::npos ? std::nullopt : Real::parse(number);
+  return value ? to_string(Real(value->quad())) : number;
+}
+
 void evaluate_numbers(ExperimentCase& one, const std::string& where) {
   std::vector<std::pair<std::string*, const char*>> numbers{{&one.time, "time"}};
   for (std::string& step : one.steps) numbers.emplace_back(&step, "steps");
@@ -52,6 +57,7 @@ void evaluate_numbers(ExperimentCase& one, const std::string& where) {
     for (const auto& [text, key] : numbers)
       *text = evaluated(*text, where + ": key '" + key + "'", parameters);
   }
+  for (std::string& step : one.steps) step = as_decimal(step);
   if (!one.time.starts_with('-')) return;
   for (std::string& step : one.steps) step = without_sign(step);
 }

@@ -19,6 +19,10 @@ void check_steps(const ExperimentCase& one, const std::string& where);
 /// The size of a step that is given with the sign of a duration: what experiments name it by.
 std::string without_sign(const std::string& step);
 
+/// A step or a tolerance as the decimal that it stands as in tables, of 34 digits where a fraction has no
+/// end; a text that is no fraction as it is.
+std::string as_decimal(const std::string& number);
+
 /// Puts numbers in the place of the expressions among time, steps and initial state, which read the
 /// parameters of the case's system; steps beside a negative time lose a sign that they have. TextError, which
 /// begins with `where`, for other names.

@@ -6,6 +6,7 @@
 #include <pfaff/bench/experiment/case_steps.hpp>
 #include <pfaff/bench/experiment/experiment.hpp>
 #include <pfaff/bench/experiment/method_selection.hpp>
+#include <pfaff/bench/runner/expressions.hpp>
 #include <pfaff/bench/runner/toml_keys.hpp>
 #include <pfaff/core/text/vocabulary.hpp>
 #include <pfaff/runs/asked_for.hpp>
@@ -55,7 +56,7 @@ ExperimentClaim read_claim(const toml::table& table, const Experiment& experimen
   claim.second = f.text("than", "");
   const std::string bound = f.text("bound", "");
   claim.factor = positive(f.text("factor", "1"), where, "factor");
-  claim.step = without_sign(f.text("step", ""));
+  claim.step = as_decimal(without_sign(evaluated(f.text("step", ""), where + ": key 'step'")));
   std::string at_least = f.text("at_least", "0");
   if (const toml::table* less = f.table("quick")) {
     Keys q(*less, file + " [finding.quick]");
@@ -139,6 +140,7 @@ void read_method(const toml::table& table, const Part& part, Experiment& experim
     method.integrator = text::beside(method.integrator, part.path.string());
   method.formulation = m.text("formulation", "");
   method.tolerances = m.one_or_more("tolerance");
+  for (std::string& tolerance : method.tolerances) tolerance = as_decimal(tolerance);
   method.absolute = m.one_or_more("absolute");
   const std::vector<GridPoint> points = points_of(m.assignment_lists("set"));
   m.finish();

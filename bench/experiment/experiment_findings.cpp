@@ -5,6 +5,7 @@
 
 #include <pfaff/bench/runner/csv_cells.hpp>
 #include <pfaff/bench/runner/text_table.hpp>
+#include <pfaff/core/numbers/real.hpp>
 #include <pfaff/runs/support/constraints.hpp>
 #include <pfaff/runs/support/setback.hpp>
 #include <pfaff/runs/support/watched_quantity.hpp>
@@ -24,13 +25,20 @@ bool agree(const ExperimentRun& a, const ExperimentRun& b) {
   return a.step == b.step && a.tolerance == b.tolerance;
 }
 
+// However they are written.
+bool same_number(const std::string& a, const std::string& b) {
+  const auto x = Real::parse(a), y = Real::parse(b);
+  return a == b || (x && y && *x == *y);
+}
+
 // The pairs of runs that a claim is about, by their indices in `runs`. A claim about a bound has no second
 // run; both indices are then the same.
 std::vector<std::pair<std::size_t, std::size_t>> pairs_of(const ExperimentClaim& claim,
                                                           const std::vector<ExperimentRun>& runs) {
   const auto meant = [&](const ExperimentRun& run, const std::string& label) {
     return run.which->name == claim.of && run.method->label == label &&
-           (claim.step.empty() || claim.step == run.step || claim.step == run.tolerance);
+           (claim.step.empty() || same_number(claim.step, run.step) ||
+            same_number(claim.step, run.tolerance));
   };
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   for (std::size_t a = 0; a < runs.size(); ++a) {
@@ -133,13 +141,32 @@ Columns finding_columns() {
                         "runs", "holding", "needed", "holds*", "median", "than_median", "ratio_median"});
 }
 
+namespace {
+// The steps and tolerances of the runs of a claim's first method in its case.
+std::string sizes_of(const ExperimentClaim& claim, const std::vector<ExperimentRun>& runs) {
+  std::vector<std::string> sizes;
+  std::string text;
+  for (const ExperimentRun& run : runs) {
+    const std::string& size = run.tolerance.empty() ? run.step : run.tolerance;
+    if (run.which->name != claim.of || run.method->label != claim.first ||
+        std::find(sizes.begin(), sizes.end(), size) != sizes.end())
+      continue;
+    text += (sizes.empty() ? "" : ", ") + size;
+    sizes.push_back(size);
+  }
+  return text.empty() ? "no step" : text;
+}
+}  // namespace
+
 void check_claims(const Experiment& experiment, const std::vector<ExperimentRun>& runs) {
   for (const ExperimentClaim& claim : experiment.claims) {
     const std::string where = experiment.name + " [[finding]] of case " + claim.of;
     const auto pairs = pairs_of(claim, runs);
     if (pairs.empty())
-      throw InputError(where + ": " + claim.first + (claim.second.empty() ? "" : " and " + claim.second) +
-                       " have no runs to compare" + (claim.step.empty() ? "" : " at " + claim.step));
+      throw InputError(
+          where + ": " + claim.first + (claim.second.empty() ? "" : " and " + claim.second) +
+          " have no runs to compare" +
+          (claim.step.empty() ? "" : " at " + claim.step + "; there are runs at " + sizes_of(claim, runs)));
     if (claim.at_least > pairs.size())
       throw InputError(where + ": key 'at_least': expected at most " + std::to_string(pairs.size()) +
                        ", the runs to compare, got " + std::to_string(claim.at_least));

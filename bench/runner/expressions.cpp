@@ -8,6 +8,19 @@
 namespace pfaff {
 
 namespace {
+// True where a sign stands between two numbers or names, and not at the beginning or in an exponent.
+bool adds_up(const std::string& text) {
+  for (std::size_t k = 1; k < text.size(); ++k) {
+    const auto before = text.find_last_not_of(' ', k - 1);
+    if ((text[k] != '+' && text[k] != '-') || before == std::string::npos) continue;
+    const char c = text[before];
+    const bool in_an_exponent = c == 'e' || c == 'E';
+    if (!in_an_exponent && (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '.' || c == ')'))
+      return true;
+  }
+  return false;
+}
+
 // True of what can only be meant as an expression: a name that is known, or an operation that no number is
 // written with.
 bool is_expression(const std::string& text, const Assignments& parameters) {
@@ -15,7 +28,7 @@ bool is_expression(const std::string& text, const Assignments& parameters) {
   const bool named =
       std::any_of(text.begin(), text.end(), [&](char c) { return letter(c) && c != 'e' && c != 'E'; });
   return text == "pi" || is_set(parameters, text) || text.find_first_of("*^(") != std::string::npos ||
-         (named && text.find_first_of("/+-") != std::string::npos);
+         (named ? text.find_first_of("/+-") != std::string::npos : adds_up(text));
 }
 }  // namespace
 

@@ -127,7 +127,7 @@ TEST(BadExperiment, Findings) {
   refused("", finding + "bound = -1\n", {"'bound'", "expected a number > 0", "'-1'"});
   refused("", finding + "than = \"RK\"\n", {"unknown method 'RK'", "did you mean 'RK4'?"});
   refused("", finding + "bound = 1.0\nat_least = 2\n", {"'at_least'", "expected at most 1", "got 2"});
-  refused("", finding + "bound = 1.0\nstep = 0.1\n", {"no runs to compare at 0.1"});
+  refused("", finding + "bound = 1.0\nstep = 0.1\n", {"no runs to compare at 0.1; there are runs at "});
   refused("", finding + "bound = 1.0\nbounds = 1\n", {"unknown key 'bounds'", "did you mean 'bound'?"});
   const auto with = [&](const std::string& what, const std::string& by) {
     std::string text = finding + "bound = 1.0\n";

@@ -18,6 +18,9 @@ TEST(Expressions, BecomeNumbers) {
   EXPECT_EQ(evaluated("(1/3 + 1/6)*3", "--step"), "1.5");
   EXPECT_EQ(*Real::parse(evaluated("period/4", "--step", {{"period", "3"}})), Real::fraction(3, 4));
   EXPECT_EQ(evaluated("period", "--step", {{"period", "3"}, {"kind", "none"}}), "3");
+  EXPECT_EQ(evaluated("0.5-0.2", "--step"), "0.3");
+  EXPECT_EQ(evaluated("1/30 + 1/30", "--step"), evaluated("(2/30)*1", "--step"));
+  EXPECT_EQ(evaluated("2.5e-1+1e-1", "--step"), "0.35");
 }
 
 // What is a number stays as it is written, and what is neither is for the reader to refuse.
@@ -62,6 +65,10 @@ TEST(Expressions, AreTakenByCasesOfExperiments) {
   EXPECT_EQ(one.initial_velocities[0], "6");
   EXPECT_EQ(one.steps[0], "0.1");
   EXPECT_EQ(*Real::parse(one.steps[1]), *Real::parse(full_turn) / Real(40));
+  one.steps = {"1/40", "1/3"};
+  evaluate_numbers(one, "file");
+  EXPECT_EQ(one.steps[0], "0.025");
+  EXPECT_EQ(one.steps[1].substr(0, 20), "0.333333333333333333");
   one.time = "20*pe";
   EXPECT_THROW(evaluate_numbers(one, "file"), InputError);
 }
