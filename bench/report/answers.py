@@ -2,7 +2,8 @@
 each with its assertion as data (assertion.py).
 
 growth       with which power of time the rms error of the conserved quantity grows, with an interval that leaving out one
-             seed after the other gives. An interval of at most SHARP to either side that holds 0, 1/2 or 1 tells that power.
+             seed after the other gives, or the drifts of the seeds where they agree. An interval of at most SHARP to either side
+             that holds 0, 1/2 or 1, or is as near to it as NEAR, tells that power.
 constraints  who stays on the constraints, which is a residual at round-off, and by how much others leave them
 agreement    how far motions are from each other in two formulations of one system, over the size of the motion: AGREE and
              less is agreement; DIFFER and more is none, where methods of formulations that agree are ten times as near
@@ -24,7 +25,7 @@ from sentence import name, names, quantity, some
 from verdict import TIE
 from wording import counted, hundredths, listed, size, text
 
-AGREE, DIFFER, SHARP = 1e-3, 1e-2, 0.25
+AGREE, DIFFER, SHARP, NEAR = 1e-3, 1e-2, 0.25, 0.05
 POWERS = {0.5: "as a random walk", 1.0: "in proportion to time", 0.0: "not at all"}
 
 
@@ -38,7 +39,7 @@ def growth(verdict):
     groups = {}
     for row in rows:
         _, p, half = found[row.label]
-        holds = [words for power, words in POWERS.items() if abs(p - power) <= half]
+        holds = [words for power, words in POWERS.items() if abs(p - power) <= max(half, NEAR)]
         groups.setdefault("" if half > SHARP or len(holds) > 1 else (holds or ["with another power"])[0], []).append(row)
     untold = groups.pop("", [])
     if not groups:

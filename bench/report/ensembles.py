@@ -6,6 +6,7 @@ the decades shown. An unbiased error that is independent from step to step grows
 """
 import bisect
 import math
+import statistics
 
 from canvas import MID
 from curves import ranks
@@ -16,6 +17,7 @@ from scales import ErrorAxis, time_axis
 from wording import hundredths, listed
 
 STUDENT = {1: 12.71, 2: 4.30, 3: 3.18, 4: 2.78, 5: 2.57, 7: 2.36, 10: 2.23, 15: 2.13, 20: 2.09, 30: 2.04, 60: 2.0}  # 95 %
+TOLD = 0.1  # half of an interval
 
 
 def is_one(experiment, case):
@@ -47,8 +49,9 @@ def spreads(experiment, case):
 
 
 def growth_of(experiment, case):
-    """[(run, power of time that the rms error grows with, half of its 95 % interval)]: the interval comes from leaving out one
-    seed after the other, and is nan for fewer than three."""
+    """[(run, power of time that the rms error grows with, half of its 95 % interval)]: that of the drifts of its seeds where these
+    agree to TOLD, because they are found from all steps, and samples may always meet an oscillation in one phase; elsewhere that of
+    the root mean square, with an interval that comes from leaving out one seed after the other. It is nan for fewer than three."""
     out = []
     for run, times, members in squares(experiment, case):
         n = len(members)
@@ -56,11 +59,24 @@ def growth_of(experiment, case):
         if n > 2:
             without = [exponent(times, rms(members[:k] + members[k + 1:])) for k in range(n)]
             mean = sum(without) / n
-            known = sorted(STUDENT)
-            student = STUDENT[known[bisect.bisect_right(known, n - 1) - 1]]
-            half = student * math.sqrt((n - 1) / n * sum((p - mean) ** 2 for p in without))
-        out.append((run, power, half))
+            half = student(n) * math.sqrt((n - 1) / n * sum((p - mean) ** 2 for p in without))
+        out.append((run, *(of_drifts(experiment, case, run) or (power, half))))
     return out
+
+
+def of_drifts(experiment, case, run):
+    """(mean of the powers of time that the drifts of all seeds have, half of its interval) where that is at most TOLD; or None."""
+    powers = [r.drift(case["conserved"], "exponent") for r in experiment.ensemble_of(run) if not r.failed]
+    if len(powers) < 3 or any(map(math.isnan, powers)):
+        return None
+    half = student(len(powers)) * statistics.stdev(powers) / math.sqrt(len(powers))
+    return (statistics.mean(powers), half) if half <= TOLD else None
+
+
+def student(count):
+    """The factor of a 95 % interval of a mean of so many values."""
+    known = sorted(STUDENT)
+    return STUDENT[known[bisect.bisect_right(known, count - 1) - 1]]
 
 
 def exponent(times, values):

@@ -63,6 +63,20 @@ class Growth(Answers):
             self.assertIn("grow in proportion to time with drift (t^1.00 ± 0.00); with walk the power is not told.", said)
             self.assertNotIn("random walk", said)
 
+    def test_drifts_of_all_steps_come_before_samples(self):
+        """The drifts of all seeds say that nothing grows, which the samples do not see."""
+        walks(self.folder)
+        for powers, said in ((("0", "0.02", "-0.01", "0"), "not at all with walk (t^0.00 ± 0.02); in proportion"),
+                             (("0", "0.9", "0.3", "0.6"), "as a random walk with walk (t^0.50 ± 0.00); in proportion")):
+            of_seeds = iter(powers)
+            self.edit("results.csv", "energy:exponent", lambda x: next(of_seeds), lambda row: row[2] == "walk")
+            self.assertIn(said, self.said("growth"))
+
+    def test_a_power_next_to_one_is_that_power(self):
+        walks(self.folder)
+        self.edit("results.csv", "energy:exponent", lambda x: "0.97", lambda row: row[2] == "drift")
+        self.assertIn("in proportion to time with drift (t^0.97 ± 0.00).", self.said("growth"))
+
     def test_two_seeds_say_nothing(self):
         walks(self.folder)
         rows = load(self.folder / "results.csv")
