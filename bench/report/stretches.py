@@ -14,6 +14,7 @@ from series import split_unit
 
 MEASURE = "motion"  # whose table it draws
 ROWS = 4  # of panels
+ROUND = 96  # points of a curve at least
 OWN = 4  # by this factor the motion is smaller in one column than in another where each has axes of its own
 
 
@@ -88,7 +89,7 @@ def draw(found, rows, wide, time_unit=""):
             if column == 0:
                 axes.set_title(plain(row.label), fontsize=0.95 * look.font, color=colour, loc="left", pad=4 * look.unit + line)
             _, x, y, exact_x, exact_y = one.stretches[number]
-            axes.plot(*finite(exact_x, exact_y), color=GREY, linewidth=2.6 * look.unit, alpha=0.6, zorder=1)
+            axes.plot(*round_track(*finite(exact_x, exact_y)), color=GREY, linewidth=2.6 * look.unit, alpha=0.6, zorder=1)
             told, first = times[k][column], all(column >= len(of) for of in times[:k])
             canvas.line(axes, *finite(x, y), f"{row.label}, {told}", color=colour, **STEPS)
             if first or not alike:
@@ -97,6 +98,20 @@ def draw(found, rows, wide, time_unit=""):
                 box, size = axes.get_window_extent(), min(0.92, 0.92 * room / canvas.measure(above, 0.92)[0])
                 canvas.write(axes, box.x0, box.y1 + (top + k * (top + tall) if alike else 5 * look.unit), above, size, color=INK)
     return canvas
+
+
+def round_track(x, y):
+    """A track of few points as a curve through them, of cubics whose slopes are those of the neighbours."""
+    count = math.ceil(ROUND / max(1, len(x)))
+    if len(x) < 4 or count == 1:
+        return x, y
+
+    def through(v):
+        ends = [2 * v[0] - v[1], *v, 2 * v[-1] - v[-2]]
+        curve = [0.5 * (2 * b + (c - a) * s + (2 * a - 5 * b + 4 * c - d) * s * s + (3 * b - a - 3 * c + d) * s**3)
+                 for a, b, c, d in zip(ends, ends[1:], ends[2:], ends[3:]) for s in (k / count for k in range(count))]
+        return [*curve, v[-1]]
+    return through(x), through(y)
 
 
 def frames_of(shown, chosen, units):
