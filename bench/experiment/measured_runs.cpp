@@ -58,19 +58,57 @@ std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure, 
 }
 
 namespace {
-// Adds the table of a run to the joined one, whose columns are those of the first run.
+// The cells of a line as they stand there, quoted or not.
+std::vector<std::string> cells_in(const std::string& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false;
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (c == ',' && !quoted) {
+      cells.emplace_back();
+    } else {
+      cells.back() += c;
+    }
+  }
+  return cells;
+}
+
+// The columns of a measure on the systems of all runs that it fits: some have quantities that others have
+// not.
+std::vector<std::string> columns_of_all(const std::string& name, const Experiment& experiment,
+                                        const std::vector<ExperimentRun>& runs) {
+  std::vector<std::string> columns{"t"};
+  for (const ExperimentRun& run : runs)
+    for (const auto& measure : measures_of(experiment, *run.which)) {
+      if (run.seed > 0 || measure->descriptor().name != name || !refuses(*measure, run.resolved).empty())
+        continue;
+      for (const Column& column : measure->columns(*run.resolved.model))
+        if (std::find(columns.begin(), columns.end(), column.name) == columns.end())
+          columns.push_back(column.name);
+    }
+  return columns;
+}
+
+// Adds the table of a run to the joined one. Where it has no column of a name the cell is empty.
 void join(const ExperimentRun& run, const MeasureInstance& measure, const MeasureTable& table,
           MeasureTable& joined, std::string& notes) {
   const auto note = [&](const std::string& what) {
     notes += measure.descriptor().name + " of " + in_words(run) + " " + what + "\n";
   };
-  if (joined.columns.empty()) joined.columns = table.columns;
-  if (table.columns != joined.columns)
-    return note("is left out: it has other columns than in the first case");
   if (!table.ended.empty()) note("ends early: " + table.ended);
   const std::string begin =
-      csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," + csv_quoted(run.step) + ",";
-  for (const std::string& line : table.lines) joined.lines.push_back(begin + line);
+      csv_quoted(run.which->name) + "," + csv_quoted(run.method->label) + "," + csv_quoted(run.step);
+  for (const std::string& line : table.lines) {
+    const std::vector<std::string> cells = cells_in(line);
+    std::string joined_line = begin;
+    for (const std::string& name : joined.columns) {
+      const auto place = std::find(table.columns.begin(), table.columns.end(), name);
+      joined_line += ',';
+      if (place != table.columns.end())
+        joined_line += cells.at(static_cast<std::size_t>(place - table.columns.begin()));
+    }
+    joined.lines.push_back(std::move(joined_line));
+  }
 }
 
 // Why a measure that was asked for says nothing of a case.
@@ -125,6 +163,7 @@ void write_measures(const fs::path& directory, const Experiment& experiment,
   fs::remove_all(directory / measures_directory, error);
   for (const std::string& name : names) {
     MeasureTable joined;
+    joined.columns = columns_of_all(name, experiment, runs);
     for (std::size_t k = 0; k < runs.size(); ++k) {
       const Measures& of_run = wanted[&runs[k]];
       for (std::size_t m = 0; m < of_run.size(); ++m)

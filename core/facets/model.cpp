@@ -156,6 +156,15 @@ std::shared_ptr<const Tape> Model::tape(Formula formula) const {
   return slot;
 }
 
+void require_offered(const Model& model, Formula formula) {
+  const FormulaTraits& traits = row_of(formula).traits;
+  const FacetSet of{traits.offered_by.bits | traits.part_of.bits};
+  if (of.bits == 0 || model.facets().meets(of)) return;
+  throw InputError("a step evaluates " + std::string(row_of(formula).name) + ", which " + model.name() +
+                   " does not offer for its motion; expected a method that needs " + to_string(of) +
+                   ", as the concept in the signature of its step says");
+}
+
 }  // namespace pfaff
 
 template class std::vector<pfaff::Coordinate>;

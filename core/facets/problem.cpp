@@ -2,7 +2,6 @@
 
 #include <tuple>
 
-#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/replaying.hpp>
 #include <pfaff/core/facets/scalar_units.hpp>
 #include <pfaff/core/numbers/formula_scalar.hpp>
@@ -26,14 +25,5 @@ struct EvaluatorInstances<Scalars<T...>> {
   static constexpr std::tuple all{&make_evaluator<T>...};
 };
 template struct EvaluatorInstances<detail::ScalarsHere<StepScalars>>;
-
-void require_offered(const Model& model, Formula formula) {
-  const FormulaTraits& traits = row_of(formula).traits;
-  const FacetSet of{traits.offered_by.bits | traits.part_of.bits};
-  if (of.bits == 0 || model.facets().meets(of)) return;
-  throw InputError("a step evaluates " + std::string(row_of(formula).name) + ", which " + model.name() +
-                   " does not offer for its motion; expected a method that needs " + to_string(of) +
-                   ", as the concept in the signature of its step says");
-}
 
 }  // namespace pfaff

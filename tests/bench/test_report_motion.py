@@ -156,8 +156,8 @@ class Stretches(Fresh):
             self.assertEqual(len(exact.get_xdata()), 24 * 4 + 1)  # two for each step, and a curve through them
             for n, (x, y) in enumerate(zip(*exact.get_data())):
                 inside = 4 < n < 92  # at its ends no neighbour says how it goes on
-                self.assertAlmostEqual(x, math.cos(begin + n / 16), delta=1e-9 if n % 4 == 0 else 1e-4 if inside else 5e-3)
-                self.assertAlmostEqual(y, math.sin(begin + n / 16), delta=1e-9 if n % 4 == 0 else 1e-4 if inside else 5e-3)
+                self.assertAlmostEqual(x, math.cos(begin + n / 16), delta=1e-9 if n % 4 == 0 else 5e-4 if inside else 5e-3)
+                self.assertAlmostEqual(y, math.sin(begin + n / 16), delta=1e-9 if n % 4 == 0 else 5e-4 if inside else 5e-3)
         self.assertEqual([axes.get_title(loc="left") for axes in canvas.axes if axes.get_title(loc="left")], ["round", "small", "lost"])
         self.assertEqual([text.get_text() for text in canvas.axes[1].texts], ["t = 20 to 26 s"])
         self.assertEqual(len({(axes.get_xlim(), axes.get_ylim()) for axes in canvas.axes}), 1)
