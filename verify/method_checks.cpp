@@ -134,6 +134,8 @@ std::vector<Check> checks_of(const MethodInstance& method, const Assignments& pa
   if (on.differentiable()) checks.push_back(within("order", "every system", of_order, check_order));
   if (conditions) checks.push_back(std::move(*conditions));
   for (Check& check : check_adaptive(on)) checks.push_back(std::move(check));
+  if (on.history() && !on.double_coefficients())
+    checks.push_back(within("steps of another motion", "methods with history", "quad", check_continuation));
   if (method.processed())
     checks.push_back(within("steps-in-a-row", "processed methods", "quad", check_steps_in_a_row));
   if (on.double_coefficients()) {

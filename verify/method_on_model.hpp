@@ -103,6 +103,11 @@ Check check_order(MethodOnModel& on);
 /// constraints, of methods that need constraints or that remember earlier steps, and beyond 16 coordinates.
 std::optional<Check> check_order_conditions(MethodOnModel& on);
 
+// step_checks.cpp
+/// Whether a method that remembers earlier steps forgets them where a run goes on from elsewhere: from
+/// another state, or backwards.
+Check check_continuation(const MethodOnModel& on);
+
 // run_checks.cpp
 /// The claims of the method in every step of runs of a thousand steps, or in sixteen of them where a claim
 /// needs the Jacobian of the step: at the step that is judged, at the largest that follows the motion and

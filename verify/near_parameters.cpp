@@ -54,4 +54,34 @@ std::vector<Assignments> parameters_near_defaults(const BracketPlugin& bracket, 
   return drawn_near(bracket, count, [&](const Assignments& set) { return bracket.make(set).parameters; });
 }
 
+std::vector<Assignments> other_values(const MethodPlugin& method, const std::vector<Assignments>& instances) {
+  constexpr double most_numbers = 8;
+  std::vector<Assignments> list;
+  const Assignments defaults = method.make({})->parameters();
+  const auto known = [&](const std::string& name, const std::string& value) {
+    const std::pair<std::string, std::string> setting(name, value);
+    const auto has = [&](const Assignments& some) {
+      return std::find(some.begin(), some.end(), setting) != some.end();
+    };
+    return has(defaults) || std::any_of(instances.begin(), instances.end(), has);
+  };
+  for (const Parameter& parameter : method.parameters()) {
+    std::vector<std::string> values;
+    if (parameter.kind == Parameter::Kind::choice) values = parameter.choices;
+    if (parameter.kind == Parameter::Kind::integer && parameter.maximum - parameter.minimum < most_numbers)
+      for (int n = static_cast<int>(parameter.minimum); n <= static_cast<int>(parameter.maximum); ++n)
+        values.push_back(std::to_string(n));
+    for (const std::string& value : values) {
+      if (known(parameter.name, value)) continue;
+      try {
+        (void)method.make({{parameter.name, value}});
+        list.push_back({{parameter.name, value}});
+      } catch (const InputError&) {
+        continue;  // what the author refuses is claimed by nobody
+      }
+    }
+  }
+  return list;
+}
+
 }  // namespace pfaff

@@ -17,4 +17,8 @@ std::vector<Assignments> parameters_near_defaults(const SystemPlugin& system, in
 /// The same of a bracket.
 std::vector<Assignments> parameters_near_defaults(const BracketPlugin& bracket, int count);
 
+/// Of each choice and each whole number of a few values the other values, one at a time: nothing is near to
+/// them. None that one of the `instances` has.
+std::vector<Assignments> other_values(const MethodPlugin& method, const std::vector<Assignments>& instances);
+
 }  // namespace pfaff

@@ -32,6 +32,8 @@ inline constexpr const char* multiplied_rounding =
 /// Of a residual that is fifty times as large as what is rounded in it nothing else can be seen in that
 /// precision; the other precision sees it.
 bool is_rounding(std::span<const double> residuals, double tolerance);
+/// The latter alone: their standard deviation is more than a fiftieth of their mean.
+bool scatter(std::span<const double> residuals);
 
 /// The start of a step with every coordinate moved up or down by a unit in its last place in T, drawn by
 /// `seed`.
@@ -50,7 +52,9 @@ std::vector<double> of_moved_starts(const std::vector<Real>& start, const Measur
 /// True where a residual is rounding, or what a stopping rule leaves: in quad it is smaller by as much as the
 /// precisions differ, which no error of a method is. What is above 1e-8 in double is neither.
 bool falls_with_the_precision(double in_double, double in_quad);
-/// The largest residual in quad for which that is true; below zero where there is none.
-double most_in_quad(double in_double);
+/// The largest residual in quad for which that is true; below zero where there is none. Of residuals that
+/// scatter when the start is moved by a rounding up to 1e-4 in double: so much a step may multiply it where a
+/// system has coefficients of very different sizes.
+double most_in_quad(double in_double, bool scatters = false);
 
 }  // namespace pfaff

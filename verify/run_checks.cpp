@@ -193,6 +193,15 @@ double residual_at(const MethodOnModel& on, const ClaimCheck& row, const Place& 
   return residual_in(step, on, row, place, h, enough);
 }
 
+// Whether the residual of a step moves with the roundings of its start.
+bool scatters(const MethodOnModel& on, const ClaimCheck& row, const Place& place, const Real& h) {
+  const auto moved = of_moved_starts<double>(place.z, [&](const std::vector<Real>& start) {
+    MeasuredStep<double> again(on.method(), on.model(), start, place.t, h);
+    return residual_of(row, again);
+  });
+  return scatter(moved);
+}
+
 // Rows of the claims that the method makes and that a single step shows.
 std::vector<const ClaimCheck*> rows_of(const MethodOnModel& on) {
   std::vector<const ClaimCheck*> rows;
@@ -245,7 +254,8 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     if (lost && leads_back(row.claim) && near_a_kink(on, place, h)) continue;
     check.measured = std::max(check.measured, residual);
     if (!lost) continue;
-    const double falls = most_in_quad(residual);
+    double falls = most_in_quad(residual);
+    if (falls < 0 && !on.history()) falls = most_in_quad(residual, scatters(on, row, place, h));
     if (!on.double_coefficients() && falls >= 0) {
       const double residual_in_quad = in_quad(place, falls);
       if (std::isnan(residual_in_quad)) continue;

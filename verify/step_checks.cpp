@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
+#include <span>
 
 #include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/runs/history.hpp>
+#include <pfaff/runs/integration.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/method_on_model.hpp>
 #include <pfaff/verify/residuals.hpp>
@@ -159,6 +162,53 @@ std::vector<Check> check_false_processors() {
   add_controls(controls, "exact-flow-splitting with a processor that is not undone", "steps-in-a-row",
                {check_steps_in_a_row(on)}, [](const Check& /*check*/) { return true; });
   return controls;
+}
+
+namespace {
+// Of two states, over the size of the first.
+double distance_of(std::span<const Quad> a, std::span<const Quad> b) {
+  Quad difference(0), size(0);
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    difference = std::max(difference, abs(a[k] - b[k]));
+    size = std::max(size, abs(a[k]));
+  }
+  return static_cast<double>(difference / size);
+}
+}  // namespace
+
+Check check_continuation(const MethodOnModel& on) {
+  constexpr double most_left =
+      1e-20;  // predictors and sums leave 1e-24 and less, steps of a past that is not theirs a lot
+  constexpr std::int64_t steps_behind = 3;
+  std::vector<Quad> start, moved;
+  for (const Real& x : on.start()) {
+    start.push_back(x.quad());
+    moved.push_back(x.quad() * (Quad(1) + Quad(1) / Quad(static_cast<double>(16 + moved.size()))));
+  }
+  const Quad t = on.time().quad(), h = on.step_size().quad();
+  Check check = on.check("steps of another motion", "methods with history", "quad");
+  check.tolerance = most_left;
+  check.result = CheckResult::pass;
+  const auto differs = [&](const std::vector<Quad>& from, const Quad& time, const Quad& step,
+                           const char* what) {
+    Integration<Quad> going_on(start_with(on.method(), on.model(), start, h, t)),
+        fresh = going_on.beside(from, time, step);
+    if (!going_on.steps(longest_beginning + 1).reached()) return;
+    const Quad begun = time == t ? going_on.time() : time;
+    going_on.go_on_from(from, begun, step);
+    fresh.go_on_from(from, begun, step);
+    if (!going_on.steps(steps_behind).reached() || !fresh.steps(steps_behind).reached()) return;
+    const double difference = distance_of(going_on.state(), fresh.state());
+    check.measured = std::max(check.measured, difference);
+    if (difference <= most_left || check.result == CheckResult::fail) return;
+    check.result = CheckResult::fail;
+    check.reason = std::string("steps of a run that goes on ") + what +
+                   " are others than those of a run that begins there";
+  };
+  differs(moved, t, h, "from another state");
+  differs(start, t, h, "from the state that it began at");
+  differs(moved, t + Quad(8) * h, -h, "from another state and time and the other way");
+  return check;
 }
 
 }  // namespace pfaff

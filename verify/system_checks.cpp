@@ -20,6 +20,22 @@ namespace pfaff {
 
 namespace {
 
+// The rates of a motion at the state that the system itself begins at, from which no run could go on.
+Check has_a_value(const std::string& system, const Model& motion) {
+  Check check = named(system, "has rates at its initial state", system, "quad", 0, 0);
+  check.scope = "initial state";
+  if (!motion.moves() || motion.initial().size() != static_cast<std::size_t>(motion.dimension()))
+    return check;
+  Replay<Quad> field(motion.tape(Formula::field));
+  std::vector<Quad> z, rates(motion.initial().size());
+  for (const Real& x : motion.initial()) z.push_back(x.quad());
+  field(generic_time_of(motion).quad(), z.data(), rates.data());
+  if (std::all_of(rates.begin(), rates.end(), [](const Quad& x) { return isfinite(x); })) return check;
+  check.result = CheckResult::fail;
+  check.reason = "the vector field is not finite there";
+  return check;
+}
+
 // A number that is the same at every state is conserved by everything, so that its conservation says nothing.
 // It varies where its values at random states differ by more than the bounds of their rounding errors.
 Check varies(const std::string& system, const std::string& invariant,
@@ -221,6 +237,7 @@ std::vector<Check> check_system(const std::string& name, const std::shared_ptr<c
   // default formulation, which keeps invariants and has closed forms on the surface of the constraints.
   const auto motion = motion_of(model);
   const Region region = region_of(*motion, model->restricted() ? model->initial() : generic_state(*model));
+  if (Check value = has_a_value(name, *motion); !good(value)) checks.push_back(std::move(value));
   for (Check& check : check_overrides(name, *model, region)) checks.push_back(std::move(check));
   if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
       model->given(Formula::poisson_tensor)) {

@@ -107,18 +107,30 @@ class Jobs {
   // refused where it is asked for by name, and otherwise only said to be left out.
   void leave_out_systems_without_a_state() {
     std::erase_if(systems_, [&](const SystemPlugin* system) {
-      if (!system->make(parameters_of(*system))->initial().empty()) return false;
-      if (named(asked_as(*system)))
+      const bool asked_for = named(asked_as(*system));
+      const auto leave_out = [&](Check whole) {
+        whole.plugin = whole.system = system->name();
+        whole.claim = "checks";
+        if (asked_for || wanted("systems"))
+          jobs_.push_back({system->name(), [whole] { return std::vector{whole}; }});
+        return true;
+      };
+      try {
+        if (!system->make(parameters_of(*system))->initial().empty()) return false;
+      } catch (const BudgetSpent&) {
+        throw;
+      } catch (const InputError&) {
+        throw;
+      } catch (...) {  // a formula of its author's that throws, which says nothing of what else is verified
+        Check thrown;
+        thrown.result = CheckResult::fail;
+        thrown.reason = words_of_current_exception();
+        return leave_out(thrown);
+      }
+      if (asked_for)
         throw InputError("system " + system->name() +
                          " has no initial state, near which its claims are measured");
-      if (wanted("systems"))
-        jobs_.push_back({system->name(), [system] {
-                           Check whole;
-                           whole.plugin = whole.system = system->name();
-                           whole.claim = "checks";
-                           return std::vector{not_judged(whole, "the system has no initial state")};
-                         }});
-      return true;
+      return leave_out(not_judged({}, "the system has no initial state"));
     });
   }
 
@@ -230,11 +242,13 @@ class Jobs {
     auto instances = parameters(method.name(), method.instances(settings_.full));
     // Runs with all parameters would take most of the time of verification.
     auto of_runs = settings_.full ? method.instances(false) : std::vector<Assignments>{instances.front()};
-    if (named(method.name()) && settings_.set.empty())
+    if (named(method.name()) && settings_.set.empty()) {
+      for (const Assignments& other : other_values(method, instances)) instances.push_back(other);
       for (const Assignments& drawn : parameters_near_defaults(method, 1)) {
         instances.push_back(drawn);
         of_runs.push_back(drawn);
       }
+    }
     for (const Assignments& p : instances) {
       spend(0, 0);  // there are thousands of pairs, and somebody may not want to wait for their list
       const auto instance = method.make(p);

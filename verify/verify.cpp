@@ -140,8 +140,10 @@ std::vector<Check> results_of(const std::function<std::vector<VerificationJob>()
       throw;
     } catch (const BudgetSpent&) {
       throw;
-    } catch (...) {
-      throw RunError(jobs[k].what + ": " + words_of_current_exception());
+    } catch (...) {  // what a plug-in throws is a fault of its own, and the others are judged
+      whole.result = CheckResult::fail;
+      whole.reason = words_of_current_exception();
+      results[k] = {whole};
     }
     const std::lock_guard lock(mutex);
     ++done;
