@@ -102,6 +102,8 @@ def derive(
     >>> len(rates) == pfaff.System("magnetic-induction").dimension
     True
     """
+    if "friction-form" in parameters:
+        raise InputError("'friction-form' is how the command line calls it; expected friction_form=")
     friction = "" if friction_form is None else text(friction_form, "friction_form", "the name of one or None")
     if method is not None and not text(method, "method", "the name of one or None"):
         raise InputError("method: expected the name of one, or None for the first that fits, got ''")

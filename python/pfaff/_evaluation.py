@@ -123,8 +123,8 @@ def bracket(
         **parameters: of the system.
 
     Raises:
-        InputError: a state of another size, a function that returns other than one number, a system that states a
-            field alone.
+        InputError: a state of another size or without a bracket, as where constraints are first class, a function that
+            returns other than one number, a system that states a field alone.
         TraceError: a function that compares values or calls `math`.
 
     >>> import pfaff
@@ -139,7 +139,10 @@ def bracket(
     if state.shape != (len(names),) or not np.isfinite(state).all():
         raise InputError(f"z: expected {expected}, got {shown(z)}")
     first, second = (_tape(function(one, what, "a function of the state"), what, coordinates) for one, what in ((f, "f"), (g, "g")))
-    return _pfaff.bracket(model, first, second, float_of_number(time, "time"), list(state))
+    value = _pfaff.bracket(model, first, second, float_of_number(time, "time"), list(state))
+    if not np.isfinite(value):
+        raise InputError(f"z: the bracket on {system.name} has no finite value there; of constraints that have none, such as first-class ones, `pfaff.evaluate` says which they are")
+    return value
 
 
 def _coordinates_of(system: System) -> Coordinates:

@@ -73,6 +73,21 @@ def test_a_field_alone_has_no_bracket():
         pfaff.bracket(lambda x: x, lambda x: x, [1], on=Decay())
 
 
+def test_first_class_constraints_have_no_bracket():
+    class Held(pfaff.System):
+        coordinates = {"q": 2, "p": 2}
+        initial = [0.5, 0.2, 0, 0]
+
+        def hamiltonian(self, p):
+            return p @ p / 2
+
+        def constraints(self, q):
+            return {"phi1": q[0] - 0.5, "phi2": q[1] - 0.2}
+
+    with pytest.raises(pfaff.InputError, match="no finite value there; .* first-class"):
+        pfaff.bracket(lambda q1: q1, lambda p1: p1, [0.5, 0.2, 0, 0], on=Held())
+
+
 def test_brackets_of_functions():
     z = [0.3, 0.4, 0.5, 0.6]
     # {q1 p2 - q2 p1, q1} = q2 and {H, q1} = -p1, by hand
@@ -104,6 +119,7 @@ def test_a_constraint_is_a_casimir_of_the_dirac_bracket():
     (lambda: pfaff.bracket(lambda q: [q, q], lambda p: p, [1, 2], on="pendulum"), "expected a function that returns one number"),
     (lambda: pfaff.bracket(lambda x: x, lambda p: p, [1, 2], on="pendulum"), "argument 'x'"),
     (lambda: pfaff.derive("pendulum", "ldll"), "did you mean 'ldl'?"),
+    (lambda: pfaff.derive("spherical-pendulum", "ldl", **{"friction-form": "none"}), "expected friction_form="),
     (lambda: pfaff.derive("damped-oscillator", "birkhoffian").text("cp"), "did you mean 'cpp'?"),
     (lambda: pfaff.derive("spherical-pendulum", friction_form="stoke"), "did you mean 'stokes'?"),
     (lambda: pfaff.reproduce("su-quin"), "did you mean 'su-qin'?"),
