@@ -111,7 +111,7 @@ void excuse_stopping(std::vector<Check>& checks) {
 // On other systems the same claims are judged.
 void excuse_mixed_units(std::vector<Check>& checks, const MethodOnModel& on) {
   if (std::all_of(checks.begin(), checks.end(), good)) return;
-  const std::string differ = differing_sizes(*on.model());
+  const std::string differ = sizes_that_differ(on);
   if (differ.empty() || !adds_up_units(on)) return;
   for (Check& check : checks)
     if (!good(check)) check = not_judged(std::move(check), differ + ", and the method adds them up");

@@ -116,9 +116,13 @@ Check check_continuation(const MethodOnModel& on);
 std::vector<Check> check_along_run(MethodOnModel& on);
 
 // mixed_units.cpp
-/// True of a method whose step on a canonical system is another one where positions and momenta are written
-/// in other units. It adds numbers of different units, as generating functions with a full matrix of `normal`
-/// do. False on systems that are not canonical.
+/// What is of very different sizes, in words: coordinates, or the positions and momenta of the chart that the
+/// method steps in. Empty where they are alike.
+std::string sizes_that_differ(const MethodOnModel& on);
+/// True of a method whose step is another one where positions and momenta are written in other units: those
+/// of a canonical system, or those of the chart of a Birkhoffian one, whose action is divided by a number. It
+/// adds numbers of different units, as generating functions with a full matrix of `normal` do. False of
+/// others.
 bool adds_up_units(const MethodOnModel& on);
 
 // adaptive_checks.cpp
