@@ -167,4 +167,35 @@ TEST(FormulaRules, AModelIsRefusedInTheSameWords) {
   source.constraint_names = {"phi1"};
   EXPECT_EQ(refused().find("system half: constraint_count "), 0U);
 }
+// What stands at the head of a column is the name of one.
+TEST(FormulaRules, NamesAreDistinctAndFitATable) {
+  const auto refusal = [](const std::vector<Coordinate>& coordinates,
+                          const std::vector<Invariant>& invariants) {
+    ModelSource source;
+    source.name = "s";
+    source.dimension = 2;
+    source.coordinates = coordinates;
+    source.invariants = invariants;
+    source.given[index(Formula::field)] = std::make_shared<const Tape>(
+        record(2, 2, [](const Recorded&, Arguments z, Results out) { out[0] = z[1], out[1] = z[0]; }));
+    try {
+      check_source(source);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(refusal({{"q", "m"}, {"p", ""}}, {conserved("energy", "J")}), "");
+  EXPECT_EQ(refusal({}, {}), "");  // named by nobody
+  EXPECT_EQ(refusal({{"q", ""}}, {}), "system s names 1 coordinates; expected 2");
+  EXPECT_EQ(refusal({{"q", ""}, {"q", ""}}, {}),
+            "system s: the name 'q' of a coordinate stands twice; expected names that differ");
+  for (const char* name : {"", "q,1", "a\"b", "x=y", " q", "q "})
+    EXPECT_NE(refusal({{name, ""}, {"p", ""}}, {}).find("of a coordinate; expected letters"),
+              std::string::npos)
+        << name;
+  EXPECT_EQ(refusal({{"q", ""}, {"p", ""}}, {conserved("e", ""), conserved("e", "")}),
+            "system s: the name 'e' of an invariant stands twice; expected names that differ");
+}
+
 }  // namespace

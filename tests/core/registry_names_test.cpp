@@ -34,6 +34,13 @@ TEST(RegistryNames, OthersAreKeptAside) {
   registry.add(&spaced);
   registry.add(&parameter);
   registry.add_alias(&alias);
+  const NamedPlugin two("two", {pfaff::parameter(&Object::rate, "rate", "", 0, 1),
+                                pfaff::parameter(&Object::rate, "rate", "", 0, 2)});
+  Registry<NamedPlugin> others;
+  others.add(&two);
+  EXPECT_TRUE(others.all().empty());
+  ASSERT_EQ(others.misnamed().size(), 1U);
+  EXPECT_NE(others.misnamed()[0].find("the parameter 'rate'; expected names that differ"), std::string::npos);
   EXPECT_EQ(registry.all().size(), 1U);
   EXPECT_TRUE(registry.aliases().empty());
   ASSERT_EQ(registry.misnamed().size(), 3U);

@@ -2,6 +2,10 @@
 // constraints that depend on time.
 #include <gtest/gtest.h>
 
+#include <pfaff/core/facets/problem.hpp>
+#include <pfaff/core/formulation.hpp>
+#include <pfaff/core/system.hpp>
+
 #include "off_the_surface.hpp"
 
 namespace {
@@ -138,6 +142,26 @@ void tapes_are_the_fields() {
 TEST(Formulations, RecordedTapesAreTheFields) {
   tapes_are_the_fields<double>();
   tapes_are_the_fields<Quad>();
+}
+
+// A step whose signature names a weaker concept than what it calls would move without the constraints.
+TEST(Formulations, OfferNoFormulaOfAnotherMotion) {
+  const auto moving = formulations()
+                          .get("dirac", "formulation")
+                          .apply(systems().get("spherical-pendulum", "system").make({}), {});
+  const Problem<double> problem(moving);
+  std::vector<double> z, half(3), whole(6);
+  for (const Real& x : moving->initial()) z.push_back(x.value());
+  problem.field(0, z, whole);
+  try {
+    problem.force(0, std::span<const double>(z).first(3), half);
+    FAIL() << "a force without the constraints was given";
+  } catch (const InputError& error) {
+    EXPECT_STREQ(error.what(),
+                 "a step evaluates force, which spherical-pendulum does not offer for its motion; expected a "
+                 "method that "
+                 "needs separable, conformal, as the concept in the signature of its step says");
+  }
 }
 
 }  // namespace

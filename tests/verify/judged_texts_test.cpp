@@ -231,4 +231,31 @@ TEST_F(JudgedTexts, AnEntropyThatAMethodLosesShowsBesideAWeakRelaxation) {
   EXPECT_EQ(bad(check_on_random_systems(*claiming.make({}), {})), Names{"entropy"});
 }
 
+// A milligram on a spring in SI units: momenta of its chart are a millionth of its positions, which a
+// generating function with a full matrix of `normal` adds to them.
+TEST_F(JudgedTexts, SizesOfAChartAreNoFaultOfAMethod) {
+  const SystemPlugin& light =
+      system("light",
+             "coordinates = [\"r\", \"v\"]\nparameters = {m = \"1/10^6\", k = \"2/10^6\", nu = \"1/5\"}\n"
+             "initial = [0.7, 0.4]\none_form = [\"m*exp(nu*t)*v\", \"0\"]\n"
+             "birkhoffian = \"exp(nu*t)*(m*v^2/2 + k*r^2/2)\"\n");
+  EXPECT_EQ(with(light, "generating-function",
+                 {{"order", "1"}, {"form", "normal"}, {"normal", "0.2,0.1,-0.3,-0.2"}}),
+            Names{});
+  EXPECT_EQ(with(light, "generating-function", {{"order", "2"}}), Names{});
+}
+
+// A motion that gets ever faster is followed as far as some thousand steps lead; the check ends.
+TEST_F(JudgedTexts, AMotionThatGetsEverFasterIsFollowedForAWhile) {
+  EXPECT_EQ(bad(check_system(system("hastening",
+                                    "coordinates = [\"a\", \"b\", \"c\", \"pa\", \"pb\", \"pc\"]\n"
+                                    "initial = [\"1/2\", \"1/3\", \"-1/4\", \"-62591/278117\", "
+                                    "\"-408466/1390585\", \"343528/1390585\"]\n"
+                                    "hamiltonian = \"a^2 + a*b + b^2 + c^4/4 + c*pa*pb/5 + pa^2*(a^2/4 + "
+                                    "1)/2 + pb^2/3 + pc^2/(2*b^2 + 2)\"\n"
+                                    "holonomic = [\"a^2 + b*c + b*t/4 + c^3/2 + t^2/5 - 61/384\"]\n"
+                                    "friction = [\"1/10\", \"a^2/5 + 1/5\", \"3/10\"]\n"))),
+            Names{});
+}
+
 }  // namespace

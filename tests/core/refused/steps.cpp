@@ -39,9 +39,18 @@ struct ParameterInDouble {
     return Status::converged;
   }
 };
+// refused alone: step: expected the concept of the facet that it needs, as in template <HasVectorField P>
+struct StepOnEverything {
+  template <class P, class W>
+  Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, W& /*w*/) const {
+    z[0] += h * t * Scalar<P>(static_cast<int>(p.size()));
+    return Status::converged;
+  }
+};
 
 template <class M>
 const Method<M> registered{{.name = "refused", .title = "", .reference = "", .order = 1}};
 const MethodPlugin* const all[] = {&registered<StepWithoutWork>, &registered<StepOfDoubles>,
-                                   &registered<StepOfVectors>, &registered<ParameterInDouble>};
+                                   &registered<StepOfVectors>, &registered<ParameterInDouble>,
+                                   &registered<StepOnEverything>};
 }  // namespace
