@@ -176,8 +176,8 @@ TEST(FormulaRules, NamesAreDistinctAndFitATable) {
     source.dimension = 2;
     source.coordinates = coordinates;
     source.invariants = invariants;
-    source.given[index(Formula::field)] = std::make_shared<const Tape>(
-        record(2, 2, [](const Recorded&, Arguments z, Results out) { out[0] = z[1], out[1] = z[0]; }));
+    source.given[index(Formula::field)] = std::make_shared<const Tape>(record(
+        2, 2, [](const Recorded&, In<Recorded> z, Out<Recorded> out) { out[0] = z[1], out[1] = z[0]; }));
     try {
       check_source(source);
     } catch (const InputError& error) {
