@@ -43,7 +43,7 @@ Reached<T> stepped(const Pair& pair, std::int64_t count) {
 
 // Methods of every kind of loop: explicit and implicit, compensated, in small and in large dimensions, and
 // processed ones, whose processor is taken at both ends of a loop.
-const std::array pairs{Pair{"verlet", "pendulum", {}}, Pair{"rk4", "n-pendulum", {}},
+const std::array pairs{Pair{"verlet", "pendulum", {}}, Pair{"rk4", "n-pendulum-angles", {}},
                        Pair{"gauss", "henon-heiles", {}}, Pair{"rattle", "spherical-pendulum", {}},
                        Pair{"exact-flow-splitting", "henon-heiles", {{"scheme", "corrected-3"}}}};
 
