@@ -159,7 +159,8 @@ std::shared_ptr<const Tape> Model::tape(Formula formula) const {
 void require_offered(const Model& model, Formula formula) {
   const FormulaTraits& traits = row_of(formula).traits;
   const FacetSet of{traits.offered_by.bits | traits.part_of.bits};
-  if (of.bits == 0 || model.facets().meets(of)) return;
+  const bool of_another_motion = model.content().meets(of) || model.restricted();
+  if (of.bits == 0 || model.facets().meets(of) || !of_another_motion) return;
   throw InputError("a step evaluates " + std::string(row_of(formula).name) + ", which " + model.name() +
                    " does not offer for its motion; expected a method that needs " + to_string(of) +
                    ", as the concept in the signature of its step says");
