@@ -3,6 +3,7 @@
 // fixed seed.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include <pfaff/core/formulation.hpp>
@@ -31,6 +32,7 @@ Check has_a_value(const std::string& system, const Model& motion) {
   for (const Real& x : motion.initial()) z.push_back(x.quad());
   field(generic_time_of(motion).quad(), z.data(), rates.data());
   if (std::all_of(rates.begin(), rates.end(), [](const Quad& x) { return isfinite(x); })) return check;
+  check.measured = std::numeric_limits<double>::quiet_NaN();
   check.result = CheckResult::fail;
   check.reason = "the vector field is not finite there";
   return check;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include <pfaff/bench/runner/settings.hpp>
@@ -124,6 +125,7 @@ class Jobs {
       } catch (...) {  // a formula of its author's that throws, which says nothing of what else is verified
         Check thrown;
         thrown.result = CheckResult::fail;
+        thrown.measured = std::numeric_limits<double>::quiet_NaN();
         thrown.reason = words_of_current_exception();
         return leave_out(thrown);
       }

@@ -1,5 +1,6 @@
 // Runs the checks that are asked for in parallel and returns their results in a fixed order.
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <mutex>
 
@@ -142,6 +143,7 @@ std::vector<Check> results_of(const std::function<std::vector<VerificationJob>()
       throw;
     } catch (...) {  // what a plug-in throws is a fault of its own, and the others are judged
       whole.result = CheckResult::fail;
+      whole.measured = std::numeric_limits<double>::quiet_NaN();
       whole.reason = words_of_current_exception();
       results[k] = {whole};
     }

@@ -171,10 +171,11 @@ TEST(JudgedSteps, MethodsWithHistoryAreJudgedAfterTheirStart) {
   static const Method<Adams> vain{described("adams-called-5", 5)};
   for (const char* system : {"pendulum", "driven-duffing"}) {
     SCOPED_TRACE(system);
-    EXPECT_EQ(bad_on(right, system), Names{});
-    EXPECT_EQ(bad_on(wrong, system), Names{"order"});
-    EXPECT_EQ(bad_on(adams, system), Names{});
-    EXPECT_EQ(bad_on(vain, system), Names{"order"});
+    // None of them asks whether it goes on from where it ended, and each is told so.
+    EXPECT_EQ(bad_on(right, system), Names{"steps of another motion"});
+    EXPECT_EQ(bad_on(wrong, system), (Names{"order", "steps of another motion"}));
+    EXPECT_EQ(bad_on(adams, system), Names{"steps of another motion"});
+    EXPECT_EQ(bad_on(vain, system), (Names{"order", "steps of another motion"}));
   }
 }
 
