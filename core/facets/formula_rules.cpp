@@ -1,6 +1,8 @@
 #include <pfaff/core/facets/formula_rules.hpp>
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_set>
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/model.hpp>
@@ -45,12 +47,15 @@ bool names_a_column(const std::string& name) {
 
 template <class Named>
 void check_names(const std::string& system, const char* kind, const std::vector<Named>& list) {
-  for (auto one = list.begin(); one != list.end(); ++one) {
-    const std::string what = "system " + system + ": the name '" + on_one_line(one->name) + "' of " + kind;
-    if (!names_a_column(one->name))
-      throw InputError(what + "; expected letters without commas, quotation marks and '='");
-    if (std::any_of(list.begin(), one, [&](const Named& other) { return other.name == one->name; }))
-      throw InputError(what + " stands twice; expected names that differ");
+  const auto what = [&](const std::string& name) {
+    return "system " + system + ": the name '" + on_one_line(name) + "' of " + kind;
+  };
+  std::unordered_set<std::string_view> taken;  // there may be a hundred thousand
+  for (const Named& one : list) {
+    if (!names_a_column(one.name))
+      throw InputError(what(one.name) + "; expected letters without commas, quotation marks and '='");
+    if (!taken.insert(one.name).second)
+      throw InputError(what(one.name) + " stands twice; expected names that differ");
   }
 }
 }  // namespace
