@@ -28,7 +28,8 @@ Evaluator<T> make_evaluator(const std::shared_ptr<const Model>& model, Formula f
 template <int W>
 Evaluator<Pack<W>> make_evaluator_in_lanes(const std::shared_ptr<const Model>& model, Formula formula);
 
-/// InputError where a model offers no facet that the formula is of.
+/// InputError for a formula of facets that a model has and does not offer for its motion, as the force of a
+/// system that has constraints.
 void require_offered(const Model& model, Formula formula);
 
 /// The work a method has done. StaticProblem, made for speed, does not count it.
