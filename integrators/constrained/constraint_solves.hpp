@@ -11,7 +11,6 @@
 #include <vector>
 
 #include <pfaff/core/facets/holonomic.hpp>
-#include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/facets/velocity_constraints.hpp>
 #include <pfaff/integrators/support/coordinate_convergence.hpp>
 
@@ -27,16 +26,6 @@ std::vector<T> generic_positions(std::size_t n) {
   std::vector<T> q(n);
   for (std::size_t k = 0; k < n; ++k) q[k] = T(Real::fraction(static_cast<std::int64_t>(1 + k % 7), 16));
   return q;
-}
-
-/// True where all positions are stated in one unit. What rounds one of them then rounds the others as much,
-/// and one that is small beside them has no round-off of its own to come to.
-inline bool positions_in_one_unit(const Model& model) {
-  const auto& coordinates = model.coordinates();
-  const std::size_t n = coordinates.size() / 2;
-  return n > 0 && !coordinates.front().unit.empty() &&
-         std::all_of(coordinates.begin(), coordinates.begin() + static_cast<std::ptrdiff_t>(n),
-                     [&](const Coordinate& one) { return one.unit == coordinates.front().unit; });
 }
 
 /// True where H_p at (t, q) is linear in p, to round-off and over scales from 1 to a million: one solve then

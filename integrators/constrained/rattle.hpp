@@ -48,7 +48,6 @@ struct Rattle : ConstrainedVerlet {
     static constexpr int oldest_contraction = 16;
     bool linear;                        // H_p is linear in p
     bool steady;                        // H_p does not depend on time
-    bool alike;                         // positions are in one unit
     std::vector<T> velocity, reaction;  // of the n positions
     std::vector<T> multiplier, residual, correction;
     DifferencePredictor<T, dynamic, dynamic> predictor;
@@ -70,7 +69,6 @@ struct Rattle : ConstrainedVerlet {
           continuation(p) {
       linear = velocity_is_linear<T>(p.holonomic(), generic_time<T>(), generic_positions<T>(n()));
       steady = velocity_is_steady<T>(p.holonomic());
-      alike = positions_in_one_unit(*p.model());
     }
 
     /// Forgets the past, round-off included: the next step depends on its state alone.
@@ -167,7 +165,7 @@ struct Rattle : ConstrainedVerlet {
     const T middle = t + kick;  // the time of T that the kick has reached
     c.velocity(middle, q, w.momentum, w.velocity);
     CoordinateConvergence<T> convergence;
-    VectorCorrections<T> moved(convergence.each() && !w.alike);
+    VectorCorrections<T> moved(convergence.each());
     for (std::size_t k = 0; k < n; ++k) {
       w.displacement[k] = length * w.velocity[k];
       w.position[k] = z[k] + (w.displacement[k] + w.carry[k]);
@@ -178,7 +176,7 @@ struct Rattle : ConstrainedVerlet {
       c.values(t + h, w.position, w.residual);
       c.solve(w.residual, w.residual);
       convergence.kick(w.residual);
-      moved.next(convergence.each() && !w.alike);
+      moved.next(convergence.each());
       if (w.linear && w.steady) {
         move<P>(c, z, w, moved);
       } else {

@@ -60,7 +60,7 @@ struct Shake : Rattle {
     bool first_time = true;
     do {
       c.velocity(t + first, w.position, w.next_momentum, w.velocity);
-      VectorCorrections<T> moved(convergence.each() && !w.alike);
+      VectorCorrections<T> moved(convergence.each());
       for (std::size_t k = 0; k < n; ++k) {
         const T change = length * w.velocity[k], next = w.position[k] + change;
         moved.against(next);
