@@ -14,7 +14,10 @@
 // correction it has to know the contraction, the ratio of one correction to the one before, and takes it from
 // an earlier step. But extrapolated multipliers are so good that one correction is enough, and one correction
 // shows no ratio. Therefore every sixteenth step starts from the plain multipliers of the step before: it
-// needs a second correction, and measures the contraction for the fifteen that follow.
+// needs a second correction, and measures the contraction for the fifteen that follow. Where coordinates are
+// of very different sizes, the small ones are corrected until rounding lets their corrections become no
+// smaller; how large they are then is remembered for as many steps, which do not make corrections in vain to
+// see it.
 //
 // The update is compensated.
 #pragma once
@@ -56,6 +59,8 @@ struct Rattle : ConstrainedVerlet {
     T last_h{0};
     RememberedContraction<Value<T>> contraction;  // of Newton's method, from the last step that measured it
     int age = 0;                                  // steps since then
+    Value<T> floor{0};  // what corrections of small coordinates came to in the last step that saw it,
+    int floor_age = 0;  // and the steps since then
 
     Work(const Rattle& method, const P& p)
         : Sums(method, p),
@@ -83,6 +88,7 @@ struct Rattle : ConstrainedVerlet {
     void forget_multipliers() {
       predictor.forget();
       contraction.forget();
+      floor = Value<T>(0);
     }
     /// The multipliers to start from: extrapolated ones or, where the contraction has to be measured, those
     /// of the step before.
@@ -93,7 +99,10 @@ struct Rattle : ConstrainedVerlet {
     }
     void remember_contraction(const CoordinateConvergence<T>& convergence) {
       if (contraction.remember_last(convergence.contraction())) age = 0;
+      if (convergence.floor() > Value<T>(0)) floor = convergence.floor(), floor_age = 0;
     }
+    /// What is known of the rounding of small coordinates; 0 where it is to be seen anew.
+    [[nodiscard]] Value<T> expected_floor() { return ++floor_age < oldest_contraction ? floor : Value<T>(0); }
     /// The contraction to be expected, with a factor of 2 to spare; 1 where it is not known, or is too old.
     [[nodiscard]] Value<T> expected_contraction() const {
       const bool usable = contraction.known() && age < oldest_contraction;
@@ -165,6 +174,7 @@ struct Rattle : ConstrainedVerlet {
     const T middle = t + kick;  // the time of T that the kick has reached
     c.velocity(middle, q, w.momentum, w.velocity);
     CoordinateConvergence<T> convergence;
+    convergence.expect_floor(w.expected_floor());
     VectorCorrections<T> moved(convergence.each());
     for (std::size_t k = 0; k < n; ++k) {
       w.displacement[k] = length * w.velocity[k];

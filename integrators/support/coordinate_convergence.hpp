@@ -209,6 +209,16 @@ class CoordinateConvergence {
     if (!converged_ && (kicked() || watch_.iterations() > 6)) converged_ = returned();
     return isnan(size_) || (converged_ ? !(unlike_ && goes_on()) : kick_ == Kick::lost);
   }
+  /// `floor`: what corrections by their own coordinates came to in an earlier iteration like this one, where
+  /// rounding lets them become no smaller; 0 where that is not known. With it none is made in vain to see it
+  /// again.
+  void expect_floor(const Number& floor) { floor_ = floor; }
+  /// What they came to in this one; 0 where that was not seen, or is more than three digits, since that of a
+  /// coordinate that is nearly zero says nothing of the others.
+  [[nodiscard]] Number floor() const {
+    const bool seen = own_idle_ >= most_idle && smallest_own_ <= Number(4096) * unit_roundoff<T>();
+    return seen ? smallest_own_ : Number(0);
+  }
   /// Multiplies what the next correction is made of: it is a kick where the iteration stagnates.
   void kick(Out<T> next) const {
     if (kick_ == Kick::next)
@@ -226,6 +236,7 @@ class CoordinateConvergence {
   }
 
  private:
+  static constexpr int most_idle = 2;  // corrections in a row that are not half as large as any before
   static constexpr int kick_size = 16384, far_size = 256, largest_over_rounding = 1 << 20;
   enum class Kick { none, next, back, lost };
   [[nodiscard]] bool kicked() const { return kick_ == Kick::next || kick_ == Kick::back; }
@@ -261,12 +272,13 @@ class CoordinateConvergence {
                           ratio * own_ <= u / Number(64);
     own_idle_ = own_ < smallest_own_ / Number(2) ? 0 : own_idle_ + 1;
     smallest_own_ = std::min(smallest_own_, own_);
-    return own_ > u / Number(8) && !foretold && own_idle_ < 2 && ++more_ <= 32;
+    const Number least = std::max(Number(u / Number(8)), Number(Number(4) * floor_));
+    return own_ > least && !foretold && own_idle_ < most_idle && ++more_ <= 32;
   }
 
   Watch watch_;
   Corrections corrections_;
-  Number size_{0}, own_{0}, previous_{0}, stagnant_{0};
+  Number size_{0}, own_{0}, previous_{0}, stagnant_{0}, floor_{0};
   Number smallest_ = std::numeric_limits<Number>::infinity(), smallest_own_ = smallest_;
   int idle_ = 0, own_idle_ = 0, more_ = 0;
   Kick kick_ = Kick::none;
