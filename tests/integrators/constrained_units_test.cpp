@@ -157,7 +157,7 @@ TEST(ConstrainedUnits, SmallCoordinatesCostNoCorrectionsInVain) {
   std::vector<double> start;
   for (const Real& x : model->initial()) start.push_back(x.value());
   const auto method = integrators().get("rattle", "integrator").make({});
-  Integration<double> run(start_with(*method, model, start, 1e-3));
+  Integration<double> run(start_with(*method, model, start, 1e-3, 0.0));
   run.steps(300).expect_reached();
   EXPECT_LE(run.counters().iterations, 300 * 4.5);
 }
