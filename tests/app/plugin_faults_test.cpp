@@ -62,8 +62,9 @@ TEST(PluginFaults, WhatAStepThrows) {
       run_pfaff({"verify", "--plugin", throws_late, "throws-late", "symplectic-euler", "--json"});
   EXPECT_EQ(verified.status, 1);
   EXPECT_EQ(verified.err, "");
+  const auto found = nlohmann::json::parse(verified.out);
   int thrown = 0, judged = 0;
-  for (const auto& check : nlohmann::json::parse(verified.out)["checks"]) {
+  for (const auto& check : found["checks"]) {
     const bool of_it = check["plugin"].get<std::string>().starts_with("throws-late");
     thrown += of_it && check["reason"].get<std::string>().find("Odd") != std::string::npos ? 1 : 0;
     judged += !of_it && check["result"] == "pass" ? 1 : 0;
