@@ -182,7 +182,7 @@ std::shared_ptr<const Stated> stated_by(const std::shared_ptr<const Model>& mode
       if (one.model.lock() == model) return one.stated;
   }
   const std::vector<std::size_t> conserved = conserved_everywhere(*model);
-  const auto stated = std::make_shared<const Stated>(
+  auto stated = std::make_shared<const Stated>(
       Stated{identities_of(*model), conserved,
              conserved.empty() ? nullptr : rates_of_invariants(*model, conserved)});
   const std::lock_guard lock(mutex);
