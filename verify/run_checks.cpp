@@ -12,6 +12,7 @@
 #include <pfaff/verify/claim_checks.hpp>
 #include <pfaff/verify/method_on_model.hpp>
 #include <pfaff/verify/rounding_of_step.hpp>
+#include <pfaff/verify/step_scale.hpp>
 
 namespace pfaff {
 
@@ -45,14 +46,6 @@ struct RunInDouble {
   int differs = 0;        // the number of that step; 0 where there is none
   double difference = 0;  // relative to the state after it
 };
-
-// The largest difference of two states over the largest coordinate of the first.
-template <class T>
-double relative_difference(std::span<const T> z, std::span<const T> other) {
-  T difference(0);
-  for (std::size_t k = 0; k < z.size(); ++k) difference = std::max(difference, T(abs(z[k] - other[k])));
-  return static_cast<double>(difference / largest_of(z));
-}
 
 // How far the step from a state moves where its inputs move by a unit in the last place.
 double spread(const MethodOnModel& on, const Place& place, const Real& h) {
@@ -174,16 +167,23 @@ RunInDouble follow(const MethodOnModel& on, const Real& step, bool compared) {
   return found;
 }
 
+// Residuals of the claim in the same step from starts that are moved by a rounding.
+template <class T>
+std::vector<double> residuals_of_moved_starts(const MethodOnModel& on, const ClaimCheck& row,
+                                              const Place& place, const Real& h, int warm_up) {
+  return of_moved_starts<T>(place.z, [&](const std::vector<Real>& start) {
+    MeasuredStep<T> again(on.method(), on.model(), start, place.t, h, warm_up);
+    return residual_of(row, again);
+  });
+}
+
 // The claim in a step from a place, once more where its residual may be rounding and is more than `enough`.
 template <class T>
 double residual_in(MeasuredStep<T>& step, const MethodOnModel& on, const ClaimCheck& row, const Place& place,
                    const Real& h, double enough = tolerance<T>()) {
   const double residual = residual_of(row, step);
   if (!(residual > enough)) return residual;
-  const auto moved = of_moved_starts<T>(place.z, [&](const std::vector<Real>& start) {
-    MeasuredStep<T> again(on.method(), on.model(), start, place.t, h, step.warm_up());
-    return residual_of(row, again);
-  });
+  const auto moved = residuals_of_moved_starts<T>(on, row, place, h, step.warm_up());
   return is_rounding(moved, tolerance<T>()) ? 0 : residual;
 }
 template <class T>
@@ -191,15 +191,6 @@ double residual_at(const MethodOnModel& on, const ClaimCheck& row, const Place& 
                    int warm_up, double enough = tolerance<T>()) {
   MeasuredStep<T> step(on.method(), on.model(), place.z, place.t, h, warm_up);
   return residual_in(step, on, row, place, h, enough);
-}
-
-// Whether the residual of a step moves with the roundings of its start.
-bool scatters(const MethodOnModel& on, const ClaimCheck& row, const Place& place, const Real& h) {
-  const auto moved = of_moved_starts<double>(place.z, [&](const std::vector<Real>& start) {
-    MeasuredStep<double> again(on.method(), on.model(), start, place.t, h);
-    return residual_of(row, again);
-  });
-  return scatter(moved);
 }
 
 // Rows of the claims that the method makes and that a single step shows.
@@ -255,7 +246,8 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     check.measured = std::max(check.measured, residual);
     if (!lost) continue;
     double falls = most_in_quad(residual);
-    if (falls < 0 && !on.history()) falls = most_in_quad(residual, scatters(on, row, place, h));
+    if (falls < 0 && !on.history())
+      falls = most_in_quad(residual, scatter(residuals_of_moved_starts<double>(on, row, place, h, 0)));
     if (!on.double_coefficients() && falls >= 0) {
       const double residual_in_quad = in_quad(place, falls);
       if (std::isnan(residual_in_quad)) continue;

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
-#include <span>
 
 #include <pfaff/bench/runner/terminal.hpp>
 #include <pfaff/runs/history.hpp>
@@ -164,18 +163,6 @@ std::vector<Check> check_false_processors() {
   return controls;
 }
 
-namespace {
-// Of two states, over the size of the first.
-double distance_of(std::span<const Quad> a, std::span<const Quad> b) {
-  Quad difference(0), size(0);
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    difference = std::max(difference, abs(a[k] - b[k]));
-    size = std::max(size, abs(a[k]));
-  }
-  return static_cast<double>(difference / size);
-}
-}  // namespace
-
 Check check_continuation(const MethodOnModel& on) {
   constexpr double most_left =
       1e-20;  // predictors and sums leave 1e-24 and less, steps of a past that is not theirs a lot
@@ -198,7 +185,7 @@ Check check_continuation(const MethodOnModel& on) {
     going_on.go_on_from(from, begun, step);
     fresh.go_on_from(from, begun, step);
     if (!going_on.steps(steps_behind).reached() || !fresh.steps(steps_behind).reached()) return;
-    const double difference = distance_of(going_on.state(), fresh.state());
+    const double difference = relative_difference<Quad>(going_on.state(), fresh.state());
     check.measured = std::max(check.measured, difference);
     if (difference <= most_left || check.result == CheckResult::fail) return;
     check.result = CheckResult::fail;

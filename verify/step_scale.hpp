@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -21,6 +22,14 @@ auto largest_of(const State& z) {
   T largest(0);
   for (const T& x : z) largest = std::max(largest, T(abs(x)));
   return largest;
+}
+
+/// The largest difference of two states over the largest coordinate of the first.
+template <class T>
+double relative_difference(std::span<const T> z, std::span<const T> other) {
+  T difference(0);
+  for (std::size_t k = 0; k < z.size(); ++k) difference = std::max(difference, T(abs(z[k] - other[k])));
+  return static_cast<double>(difference / largest_of(z));
 }
 
 /// How far the coordinates of a system are from one, at a state near `centre`, as powers of two: the size of

@@ -73,22 +73,6 @@ std::vector<std::string> cells_in(const std::string& line) {
   return cells;
 }
 
-// The columns of a measure on the systems of all runs that it fits: some have quantities that others have
-// not.
-std::vector<std::string> columns_of_all(const std::string& name, const Experiment& experiment,
-                                        const std::vector<ExperimentRun>& runs) {
-  std::vector<std::string> columns{"t"};
-  for (const ExperimentRun& run : runs)
-    for (const auto& measure : measures_of(experiment, *run.which)) {
-      if (run.seed > 0 || measure->descriptor().name != name || !refuses(*measure, run.resolved).empty())
-        continue;
-      for (const Column& column : measure->columns(*run.resolved.model))
-        if (std::find(columns.begin(), columns.end(), column.name) == columns.end())
-          columns.push_back(column.name);
-    }
-  return columns;
-}
-
 // Adds the table of a run to the joined one. Where it has no column of a name the cell is empty.
 void join(const ExperimentRun& run, const MeasureInstance& measure, const MeasureTable& table,
           MeasureTable& joined, std::string& notes) {
@@ -126,6 +110,26 @@ std::string why(const MeasureInstance& measure, const ExperimentCase& one,
 }
 }  // namespace
 
+std::vector<MeasureOfRuns> measures_of_runs(const Experiment& experiment,
+                                            const std::vector<ExperimentRun>& runs) {
+  std::vector<MeasureOfRuns> found;
+  for (const ExperimentRun& run : runs)
+    for (const auto& measure : measures_of(experiment, *run.which)) {
+      if (run.seed > 0 || !refuses(*measure, run.resolved).empty()) continue;
+      const std::string& name = measure->descriptor().name;
+      auto place = std::find_if(found.begin(), found.end(), [&](const MeasureOfRuns& one) {
+        return one.measure->descriptor().name == name;
+      });
+      if (place == found.end()) place = found.insert(found.end(), {measure, &run, {}});
+      Columns& columns = place->columns;
+      for (const Column& column : measure->columns(*run.resolved.model))
+        if (std::none_of(columns.begin(), columns.end(),
+                         [&](const Column& other) { return other.name == column.name; }))
+          columns.push_back(column);
+    }
+  return found;
+}
+
 Columns columns_before_measures(const std::string& time_unit) {
   const auto& [one, method, step, t] = columns_of_the_run;
   return {{.name = one, .kind = Column::Kind::text},
@@ -161,9 +165,13 @@ void write_measures(const fs::path& directory, const Experiment& experiment,
   });
   std::error_code error;
   fs::remove_all(directory / measures_directory, error);
+  const std::vector<MeasureOfRuns> measures = measures_of_runs(experiment, runs);
   for (const std::string& name : names) {
     MeasureTable joined;
-    joined.columns = columns_of_all(name, experiment, runs);
+    joined.columns = {"t"};
+    for (const MeasureOfRuns& of : measures)
+      if (of.measure->descriptor().name == name)
+        for (const Column& column : of.columns) joined.columns.push_back(column.name);
     for (std::size_t k = 0; k < runs.size(); ++k) {
       const Measures& of_run = wanted[&runs[k]];
       for (std::size_t m = 0; m < of_run.size(); ++m)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 #include <pfaff/bench/experiment/experiment.hpp>
@@ -19,6 +20,17 @@ Measures measures_of(const Experiment& experiment, const ExperimentCase& one);
 std::vector<const ExperimentRun*> measured_runs(const MeasureInstance& measure, const ExperimentCase& one,
                                                 const std::vector<ExperimentRun>& runs,
                                                 const std::vector<nlohmann::json>& summaries);
+
+/// A measure that says something of a run, the first such run, and the columns of its joined table.
+struct MeasureOfRuns {
+  std::shared_ptr<const MeasureInstance> measure;
+  const ExperimentRun* first;
+  Columns columns;
+};
+/// The measures of an experiment, in the order in which runs have them. Their columns are those of all runs:
+/// what only other systems have than that of the first, as quantities of theirs, follows.
+std::vector<MeasureOfRuns> measures_of_runs(const Experiment& experiment,
+                                            const std::vector<ExperimentRun>& runs);
 
 /// The columns of a joined table before those of its measure; the elapsed time is the last of them.
 Columns columns_before_measures(const std::string& time_unit);

@@ -1,7 +1,6 @@
 #include <pfaff/bench/experiment/tables.hpp>
 
 #include <algorithm>
-#include <map>
 
 #include <pfaff/bench/experiment/costs.hpp>
 #include <pfaff/bench/experiment/equal_cost.hpp>
@@ -27,35 +26,20 @@ nlohmann::json columns_in_json(const Columns& columns) {
 // The tables of the measures that say something of a run.
 void describe_measures(const Experiment& experiment, const std::vector<ExperimentRun>& runs,
                        nlohmann::json& tables) {
-  std::map<std::string, std::size_t> described;  // where the table of a measure stands
-  for (const ExperimentRun& run : runs)
-    for (const auto& measure : measures_of(experiment, *run.which)) {
-      const std::string& name = measure->descriptor().name;
-      if (run.seed > 0 || !refuses(*measure, run.resolved).empty()) continue;
-      const Model& model = *run.resolved.model;
-      if (const auto known = described.find(name); known != described.end()) {
-        // Columns that only other systems have, as of quantities of theirs, follow.
-        nlohmann::json& columns = tables[known->second]["columns"];
-        for (const nlohmann::json& column : columns_in_json(measure->columns(model)))
-          if (std::none_of(columns.begin(), columns.end(),
-                           [&](const nlohmann::json& other) { return other["name"] == column["name"]; }))
-            columns.push_back(column);
-        continue;
-      }
-      described.emplace(name, tables.size());
-      nlohmann::json table = description_of(*measure);
-      Columns columns = columns_before_measures(model.time_unit());
-      for (const Column& key : columns) table["keys"].push_back(key.name);
-      // What a table names first is what its rows belong to.
-      bool names = true;
-      for (const Column& column : measure->columns(model)) {
-        names = names && column.kind == Column::Kind::text;
-        if (names) table["keys"].push_back(column.name);
-        columns.push_back(column);
-      }
-      table["columns"] = columns_in_json(columns);
-      tables.push_back(std::move(table));
+  for (const MeasureOfRuns& of : measures_of_runs(experiment, runs)) {
+    nlohmann::json table = description_of(*of.measure);
+    Columns columns = columns_before_measures(of.first->resolved.model->time_unit());
+    for (const Column& key : columns) table["keys"].push_back(key.name);
+    // What a table names first is what its rows belong to.
+    bool names = true;
+    for (const Column& column : of.columns) {
+      names = names && column.kind == Column::Kind::text;
+      if (names) table["keys"].push_back(column.name);
+      columns.push_back(column);
     }
+    table["columns"] = columns_in_json(columns);
+    tables.push_back(std::move(table));
+  }
 }
 }  // namespace
 

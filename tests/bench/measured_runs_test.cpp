@@ -51,9 +51,9 @@ class MeasuredRuns : public ::testing::Test {
     write_file(files / "test.toml", more + swings);
     return read_experiment(files / "test.toml", false);
   }
-  // The lines of a joined table; none where there is no table.
-  std::vector<std::string> joined(const std::string& name) const {
-    const auto text = text_in(files.path() / "measures" / (name + ".csv"));
+  // The lines of a joined table of an experiment in that folder; none where there is no table.
+  std::vector<std::string> joined(const std::string& name, const std::string& folder = "") const {
+    const auto text = text_in(files.path() / folder / "measures" / (name + ".csv"));
     std::istringstream stream(text.value_or(""));
     std::vector<std::string> lines;
     for (std::string line; std::getline(stream, line);) lines.push_back(line);
@@ -215,6 +215,30 @@ TEST_F(MeasuredRuns, AdaptiveOnesAreRefused) {
 }
 
 // What a run measures of the structure of a step would be that of the method of its first steps.
+// A quantity that only one of the systems has is a column of all rows, and empty in those of the others; the
+// description names it.
+TEST_F(MeasuredRuns, HaveTheColumnsOfAllCases) {
+  write_file(files / "test.toml",
+             "schema = 1\ntitle = \"A test\"\nmeasures = [\"error\"]\n[[method]]\nlabel = \"RK4\"\n"
+             "integrator = \"rk4\"\n[[case]]\nname = \"plain\"\nsystem = \"harmonic-oscillator\"\ntime = 1\n"
+             "steps = [0.25]\n[[case]]\nname = \"damped\"\nsystem = \"damped-oscillator\"\ntime = 1\n"
+             "steps = [0.25]\n");
+  (void)run_experiment(read_experiment(files / "test.toml", false), files.path() / "out", {},
+                       {.report = false, .timing = 1e-4});
+  const auto lines = joined("error", "out");
+  ASSERT_EQ(lines.size(), 1U + 2 * 5);
+  EXPECT_EQ(lines[0], "case,method,step,t,error,energy:error");
+  EXPECT_TRUE(lines[5].starts_with("plain,") && lines[5].ends_with(",")) << lines[5];
+  EXPECT_TRUE(lines[10].starts_with("damped,") && !lines[10].ends_with(",")) << lines[10];
+  const auto described =
+      nlohmann::json::parse(text_in(files.path() / "out" / "experiment.json").value_or(""));
+  std::string columns;
+  for (const auto& table : described["tables"])
+    if (table["file"] == "measures/error.csv")
+      for (const auto& column : table["columns"]) columns += column["name"].get<std::string>() + " ";
+  EXPECT_EQ(columns, "case method step t error energy:error ");
+}
+
 TEST(MultistepRuns, HaveNoStructureOfAStep) {
   RunSettings settings = pfaff::testing::settings_of("kepler", "0.05", "20");
   settings.integrator = std::string(PFAFF_GOLDEN) + "/../../examples/tables/quinlan-tremaine-12.toml";
