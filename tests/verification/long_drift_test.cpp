@@ -1,4 +1,4 @@
-// RATTLE over a million steps of the 4-pendulum, from 32 random starts. Both levels of constraints stay at
+// RATTLE over a million steps of the 4-pendulum, from 16 random starts. Both levels of constraints stay at
 // round-off; the energy oscillates, and any trend in it is within what the correlation of its errors
 // explains.
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ bool trend_is_none(const Drift& energy) { return energy.slope_low <= 0 && energy
 
 TEST(LongDrift, RattleOverAMillionSteps) {
   int without_trend = 0;
-  for (int seed = 1; seed <= 32; ++seed) {
+  for (int seed = 1; seed <= 16; ++seed) {
     const RunRecord record = run("rattle", "", seed, "0.001", "1000");
     ASSERT_EQ(record.status, Status::converged) << record.message;
     ASSERT_EQ(record.completed, 1000000);
@@ -32,7 +32,7 @@ TEST(LongDrift, RattleOverAMillionSteps) {
     EXPECT_LE(record.constraints().drift[1].maximum, 1e-14) << seed;
     without_trend += trend_is_none(record.invariants().drift[0]);
   }
-  EXPECT_GE(without_trend, 28);
+  EXPECT_GE(without_trend, 13);  // intervals that hold in 95 of 100 give fewer once in 140 times
 }
 
 // The control: classical Runge-Kutta on Dirac's formulation loses energy, and the interval says so.
