@@ -40,7 +40,8 @@ def sizes(wide):
     """Of a wide screen where `wide` is True, of a narrow one where it is False, else of print of that width in points."""
     if isinstance(wide, bool):
         return Sizes(1120, 12.5, 1.0, True) if wide else Sizes(368, 11, 1.0, False)
-    return Sizes(wide, 7, 7 / 11, wide >= 350)
+    font = matplotlib.rcParams["font.size"]
+    return Sizes(wide, font, font / 11, wide >= 50 * font)
 
 
 def plain(text):

@@ -52,7 +52,8 @@ def finding(verdict):
     if out := said(first(verdict)):
         return out
     if kind := answer_of(verdict)[2]:
-        return f"The runs do not tell {kind}."
+        why = ": no quantity is conserved in all of them" if drift_sentence.drift in answer_of(verdict)[0] and not verdict.invariant else ""
+        return f"The runs do not tell {kind}{why}."
     if out := said(second(verdict)):
         return out
     return f"No method is called cheapest: {sentence.why_none_is_cheapest(verdict) or 'too few are ranked'}."

@@ -2,8 +2,8 @@
 
 Writes, into figures/paper/, every figure of a case that is made for print, without a title and with text as text; beside
 each a caption in a text file; for each case its verdict as a LaTeX table (booktabs); and the works that the experiment names as
-BibTeX. What matplotlib draws with can be
-changed in a style file of matplotlib's (`--style FILE`), beginning with paper.mplstyle beside this script.
+BibTeX. What matplotlib draws with can be changed in a style file of matplotlib's (`--style FILE`), whose keys take the place
+of those in paper.mplstyle beside this script.
 """
 import matplotlib
 
@@ -33,7 +33,7 @@ def settings(wanted, target):
     target.mkdir(parents=True, exist_ok=True)
     # LaTeX, and many a font that a style may name, has no characters for exponents.
     formulas = {"axes.formatter.use_mathtext": True}
-    return matplotlib.rc_context(formulas | matplotlib.rc_params_from_file(wanted.style, use_default_template=False))
+    return matplotlib.rc_context(formulas | wanted.style)
 
 
 def figure(drawing, wanted, target, told):

@@ -6,6 +6,7 @@ line on stderr.
 """
 import dataclasses
 import difflib
+import logging
 import os
 import pathlib
 import re
@@ -27,7 +28,7 @@ class Wanted:
     """What figures are asked for, and what of it cannot be made, in words."""
     kinds: list
     width: float  # in points of PostScript
-    style: str
+    style: dict  # matplotlib's parameters
     left_out: str = ""
 
 
@@ -39,7 +40,7 @@ def wanted(options):
         if kinds == ["pgf"]:
             raise InputError(f"--figures: {why}")
         kinds, left_out = [k for k in kinds if k != "pgf"], f"figures of the kind pgf were left out, because {why}"
-    return Wanted(kinds, width_of(options.get("--width", "85mm")), options.get("--style") or str(STYLE), left_out)
+    return Wanted(kinds, width_of(options.get("--width", "85mm")), style_of(options.get("--style")), left_out)
 
 
 def kinds_of(text):
@@ -61,6 +62,31 @@ def width_of(text):
     if not 140 <= width <= 1000:
         raise InputError(f"--width: expected a width between 50mm and 350mm like 85mm, got '{text}'")
     return width
+
+
+def style_of(path):
+    """The parameters of Pfaff's own style with those of the file, where one is given, in their place."""
+    import matplotlib  # here, where what is missing is said
+
+    complaints = []
+    heard = logging.Handler(logging.WARNING)
+    heard.emit = lambda record: complaints.append(record.getMessage())
+    logger = logging.getLogger("matplotlib")
+    logger.addHandler(heard)
+    logger.propagate = False
+    try:
+        read = [matplotlib.rc_params_from_file(file, use_default_template=False) for file in (STYLE, path) if file]
+    except UnicodeDecodeError:
+        raise InputError(f"--style {path}: expected text in UTF-8") from None
+    finally:
+        logger.removeHandler(heard)
+        logger.propagate = True
+    if complaints:
+        key = re.match(r"\s*Bad key '?\"?([^\s'\"]+)", complaints[0])
+        near = difflib.get_close_matches(key[1], matplotlib.rcParams, 1) if key else []
+        raise InputError(f"--style {path}: " + (f"matplotlib has no key '{key[1]}'" if key else " ".join(complaints[0].split()))
+                         + (f"; did you mean '{near[0]}'?" if near else ""))
+    return {key: value for one in read for key, value in one.items()}
 
 
 def work(arguments):

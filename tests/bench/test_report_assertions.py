@@ -142,6 +142,18 @@ class Questions(Fresh):
             self.assertIn("Who keeps what?", parsed(self.folder).text)
             self.assertEqual(assertions.faults(self.folder), [])
 
+    def test_where_nothing_is_conserved_the_first_screen_says_so(self):
+        synthetic(self.folder)
+        path = self.folder / "experiment.json"
+        head = json.loads(path.read_text())
+        head["cases"][0].pop("conserved")
+        path.write_text(json.dumps(head))
+        self.assertEqual(self.ask("energy")[0], 0)
+        said = json.loads((self.folder / "report.json").read_text())["cases"][0]["sentence"]
+        self.assertEqual(said, "The runs do not tell which methods let the conserved quantity drift away: no quantity is conserved in "
+                         "all of them.")
+        self.assertEqual(assertions.faults(self.folder), [])
+
     def test_an_unknown_answer_is_refused(self):
         synthetic(self.folder)
         status, told = self.ask("weather")

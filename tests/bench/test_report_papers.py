@@ -8,13 +8,16 @@ import xml.etree.ElementTree
 
 from synthetic import Fresh, ended, reading, report, synthetic
 
+import canvas  # noqa: E402
 import labels  # noqa: E402
+import matplotlib  # noqa: E402
 import papers  # noqa: E402
 import scales  # noqa: E402
 import verdict  # noqa: E402
 import verdict_latex  # noqa: E402
 import wanted  # noqa: E402
 import work_precision  # noqa: E402
+from files import InputError  # noqa: E402
 
 
 def paper(folder, *options):
@@ -70,6 +73,24 @@ class Papers(Fresh):
             status, told = paper(self.folder, *options)
             self.assertEqual((status, told.count("\n")), (2, 1), told)
             self.assertIn(said, told)
+
+    def test_a_style_changes_its_keys_alone_and_misspelt_ones_are_refused(self):
+        style = self.folder / "mine.mplstyle"
+        style.write_text("font.size: 9\n")
+        own, mine = wanted.style_of(None), wanted.style_of(str(style))
+        self.assertEqual({k for k in mine if mine[k] != own.get(k)}, {"font.size"})
+        with matplotlib.rc_context(own):
+            small = canvas.sizes(241.0)
+        with matplotlib.rc_context(mine):
+            large = canvas.sizes(241.0)
+        self.assertEqual((small.font, large.font), (7, 9))
+        self.assertAlmostEqual(large.unit / small.unit, 9 / 7)
+        for text, said in (("font.siez: 9\n", "matplotlib has no key 'font.siez'; did you mean 'font.size'?"),
+                           ("font.size: large\n", "font.size: large"), ("font.size 9\n", "font.size 9"), ("\xff", "UTF-8")):
+            style.write_bytes(text.encode("latin-1"))
+            with self.assertRaises(InputError) as refused:
+                wanted.style_of(str(style))
+            self.assertIn(said, str(refused.exception))
 
     def test_without_latex_the_other_kinds_are_made(self):
         synthetic(self.folder)
