@@ -47,7 +47,7 @@ concept Steps = requires(const M& m, const P& p, const Scalar<P>& t, State<P>& z
 
 namespace detail {
 /// Returns loop(method). Where the method has a member `compensated`, the loop is compiled twice, with true
-/// and with false as a constant, so that no step has to test it.
+/// and with false as a constant, so that no step has to test it; for which the loop has to be inlined.
 template <class M, class Loop>
 Status unswitched(const M& method, Loop&& loop) {
   if constexpr (std::is_trivially_copyable_v<M> && requires { method.compensated; }) {
@@ -80,19 +80,20 @@ requires Steps<M, P> Status advance_as_allowed(const M& method, const P& problem
     const auto put = [&] {
       if (block != nullptr) block->states.put(block->rows++, state.data());
     };
-    return unswitched(method, [&](const M& m) {
-      if constexpr (WritesProcessor<M, P, W>)
-        if (m.processed())
-          return advance_kernels(m, problem, t0, first, h, rows, stride, put, steps, state, w, completed);
-      return steps.repeat(
-          rows * stride, stride, completed,
-          [&](std::int64_t taken) {
-            const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
-            const Status status = m.step(problem, t, h, state, w);
-            return status == Status::not_converged ? m.step(problem, t, h, state, w) : status;
-          },
-          put);
-    });
+    return unswitched(
+        method, [&](const M& m) __attribute__((always_inline)) {
+          if constexpr (WritesProcessor<M, P, W>)
+            if (m.processed())
+              return advance_kernels(m, problem, t0, first, h, rows, stride, put, steps, state, w, completed);
+          return steps.repeat(
+              rows * stride, stride, completed,
+              [&](std::int64_t taken) {
+                const Scalar<P> t = t0 + Scalar<P>(static_cast<double>(first + taken)) * h;
+                const Status status = m.step(problem, t, h, state, w);
+                return status == Status::not_converged ? m.step(problem, t, h, state, w) : status;
+              },
+              put);
+        });
   };
   if constexpr (std::is_trivially_copyable_v<State<P>> && std::is_trivially_copyable_v<W>) {
     // Local copies stay in registers through the loop.

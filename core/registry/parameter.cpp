@@ -140,16 +140,34 @@ std::string range_of(const Parameter& p) {
   return range_text({p.minimum, p.maximum}, p.unit);
 }
 
-void Parameter::assign(void* object, const std::string& text, std::string_view owner) const {
+namespace {
+// Refuses what is no value of the parameter. Files, texts and plug-ins are looked at by those that read them.
+void check(const Parameter& p, const std::string& text, std::string_view owner, const char* whose = "") {
   const auto refuse = [&](const std::string& expected) {
-    throw InputError("parameter '" + name + "' of " + std::string(owner) + ": expected " + expected + " in " +
-                     range_of(*this) + ", got '" + text + "'" +
-                     (meaning.empty() ? "" : " (" + meaning + ")"));
+    throw InputError("parameter '" + p.name + "' of " + std::string(owner) + ": expected " + expected +
+                     range_of(p) + ", got " + whose + "'" + text + "'" +
+                     (p.meaning.empty() || p.kind == Parameter::Kind::choice ? "" : " (" + p.meaning + ")"));
   };
-  if (kind == Kind::file || kind == Kind::text) {
-    write(object, text);
-    return;
+  const auto in_range = [&](const Real& x) { return x.value() >= p.minimum && x.value() <= p.maximum; };
+  if (p.kind == Parameter::Kind::choice) {
+    if (std::find(p.choices.begin(), p.choices.end(), text) == p.choices.end()) refuse("");
+  } else if (p.kind == Parameter::Kind::list) {
+    const auto numbers = parse_list(text);
+    if (!numbers || !std::all_of(numbers->begin(), numbers->end(), in_range))
+      refuse("numbers separated by commas, each in ");
+  } else if (p.kind == Parameter::Kind::integer) {
+    int whole = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), whole);
+    if (error != std::errc() || end != text.data() + text.size() || whole < p.minimum || whole > p.maximum)
+      refuse("an integer in ");
+  } else if (p.kind == Parameter::Kind::real) {
+    const auto value = Real::parse(text);
+    if (!value || !in_range(*value)) refuse("a number in ");
   }
+}
+}  // namespace
+
+void Parameter::assign(void* object, const std::string& text, std::string_view owner) const {
   if (kind == Kind::plugin) {
     PluginValue value = parse_plugin_value(
         text, "parameter '" + name + "' of " + std::string(owner) + ", of kind " + plugins.kind);
@@ -157,36 +175,18 @@ void Parameter::assign(void* object, const std::string& text, std::string_view o
     write(object, to_string(value));
     return;
   }
-  if (kind == Kind::choice) {
-    if (std::find(choices.begin(), choices.end(), text) == choices.end())
-      throw InputError("parameter '" + name + "' of " + std::string(owner) + ": expected " + range_of(*this) +
-                       ", got '" + text + "'");
-    write(object, text);
-    return;
-  }
-  const auto in_range = [this](const Real& x) { return x.value() >= minimum && x.value() <= maximum; };
-  if (kind == Kind::list) {
-    const auto numbers = parse_list(text);
-    if (!numbers || !std::all_of(numbers->begin(), numbers->end(), in_range))
-      refuse("numbers separated by commas, each");
-    write(object, text);
-    return;
-  }
-  const auto value = Real::parse(text);
-  if (kind == Kind::integer) {
-    int whole = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), whole);
-    if (error != std::errc() || end != text.data() + text.size() || whole < minimum || whole > maximum)
-      refuse("an integer");
-    write(object, text);
-    return;
-  }
-  if (!value || !in_range(*value)) refuse("a number");
+  check(*this, text, owner);
   write(object, text);
 }
 
 void assign_all(const std::vector<Parameter>& parameters, void* object, const Assignments& assignments,
                 const std::string& owner) {
+  for (const Parameter& p : parameters) {
+    if (is_set(assignments, p.name)) continue;
+    const std::string value = p.read(object);
+    const bool open = p.kind == Parameter::Kind::choice && value.empty();  // until something is chosen
+    if (!open) check(p, value, owner, "its default value ");
+  }
   const auto parameter_of = [&](const std::string& key) -> const Parameter& {
     const auto found =
         std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.takes(key); });

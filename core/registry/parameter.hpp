@@ -217,7 +217,7 @@ Parameter parameter(PluginValue S::*member, std::string name, PluginChoice plugi
 }
 
 /// Applies `assignments` to `object`; name.KEY = value is applied after name = value, whichever stands first.
-/// Throws InputError for unknown names (with the nearest) and bad values.
+/// Throws InputError for unknown names (with the nearest), bad values and defaults outside their own range.
 void assign_all(const std::vector<Parameter>& parameters, void* object, const Assignments& assignments,
                 const std::string& owner);
 

@@ -56,6 +56,28 @@ TEST(Parameter, TakesTextExactly) {
   EXPECT_EQ(sample.stages, 1);
 }
 
+// A default is a value like any other, unless another one takes its place.
+TEST(Parameter, RefusesDefaultsOutsideTheirOwnRange) {
+  const auto refused = [](const auto& change, const Assignments& assignments) -> std::string {
+    Settings sample;
+    change(sample);
+    try {
+      assign(sample, assignments);
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  const auto fast = [](Settings& s) { s.nu = 11_r; };
+  EXPECT_EQ(refused(fast, {}),
+            "parameter 'nu' of system sample: expected a number in 0 .. 10 1/s, got its default value '11' "
+            "(damping rate)");
+  EXPECT_EQ(refused(fast, {{"nu", "10"}}), "");
+  EXPECT_NE(refused([](Settings& s) { s.stages = 0; }, {}), "");
+  EXPECT_NE(refused([](Settings& s) { s.form = "trapezoid"; }, {{"nu", "1"}}), "");
+  EXPECT_EQ(refused([](Settings& s) { s.nu = 10_r; }, {}), "");
+}
+
 TEST(Parameter, RefusesWhatIsOutOfRange) {
   EXPECT_EQ(refusal("nu", "11"),
             "parameter 'nu' of system sample: expected a number in 0 .. 10 1/s, got '11' (damping rate)");
