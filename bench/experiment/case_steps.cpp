@@ -27,7 +27,7 @@ void read_steps(Keys& keys, ExperimentCase& one) {
     one.automatic = true;
     one.steps.clear();
   } else {
-    one.steps = keys.list("steps", one.steps);
+    one.steps = keys.some("steps", one.steps);
     if (one.automatic && !one.steps.empty()) {  // a list with --quick in the place of automatic steps
       one.automatic = false;
       one.evaluations.reset();

@@ -31,15 +31,20 @@ bool replaces_another(const fs::path& directory, const nlohmann::json& mine, boo
   // Builds are left out of the comparison here; they belong to the identity of each run. A file may be named
   // by several paths.
   nlohmann::json theirs = nlohmann::json::parse(read_file(identity), nullptr, false);
-  // A damaged file says nothing about the runs beside it, each of which says by itself what it is.
-  if (!theirs.is_object() || !theirs.contains("schema")) return false;
+  // A damaged file says nothing about the runs beside it, each of which says by itself what it is. Without
+  // runs it is the file of somebody else.
+  if (!theirs.is_object() || !theirs.contains("schema") || !theirs.contains("name")) {
+    if (fs::is_directory(directory / "runs", error)) return false;
+    throw InputError("output directory '" + directory.string() + "' holds a file " + experiment_file +
+                     " that describes no experiment; expected a new directory");
+  }
   if (theirs["schema"] != mine["schema"]) {
     if (force && theirs.value("name", "") == mine["name"]) return true;
     throw InputError("output directory '" + directory.string() + "' holds an experiment of schema " +
                      theirs["schema"].dump() + ", whose tables are others than those of schema " +
                      mine["schema"].dump() + "; expected a new directory, or --force to make its runs anew");
   }
-  const nlohmann::json their_classes = theirs["drift_classes"];
+  const nlohmann::json their_classes = theirs.value("drift_classes", nlohmann::json());
   theirs["versions"] = mine["versions"];
   theirs["asked_for"] = mine["asked_for"];
   theirs["drift_classes"] = mine["drift_classes"];

@@ -66,6 +66,12 @@ class Keys {
     const toml::node* node = table_.get(key);
     return node != nullptr && node->is_table();
   }
+  /// The texts of a list, which must not be empty where the key is there.
+  std::vector<std::string> some(std::string_view key, std::vector<std::string> fallback = {}) {
+    std::vector<std::string> items = list(key, std::move(fallback));
+    if (items.empty() && table_.get(key) != nullptr) refuse(key, "expected at least one");
+    return items;
+  }
   std::string required(std::string_view key) {
     if (table_.get(key) == nullptr) throw InputError(where_ + ": key '" + std::string(key) + "' is missing");
     return text(key, {});

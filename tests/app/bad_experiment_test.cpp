@@ -57,7 +57,7 @@ TEST(BadExperiment, UnknownNames) {
 TEST(BadExperiment, WrongTypes) {
   refused("steps = [\"0.5\"]", "steps = 0.5", {"[[case]], line 10: key 'steps': expected a list"});
   refused("steps = [\"0.5\"]", "steps = [[0.5]]", {"line 10: key 'steps': expected a number or a string"});
-  refused("steps = [\"0.5\"]", "steps = []", {"short", "'steps' is missing"});
+  refused("steps = [\"0.5\"]", "steps = []", {"line 10: key 'steps': expected at least one"});
   refused("time = \"2\"", "time = [2]", {"'time'", "expected a number or a string"});
   refused("", "set = 3\n", {"'set'", "expected a table"});
   refused("", "quick = 3\n", {"'quick'", "expected a table"});

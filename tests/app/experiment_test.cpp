@@ -220,6 +220,20 @@ conserved = "birkhoffian"
   expect_complaint(run_pfaff(other), 2, {"out' holds another experiment; expected a new directory"},
                    "compare");
   EXPECT_EQ(runs_in(files.path() / "out").size(), 2U);
+  // A file of that name that describes no experiment is somebody else's, where there are no runs beside it.
+  fs::create_directory(files.path() / "theirs");
+  for (const char* text : {"{}", "[]", "notes", "{\"name\": \"test\"}", "{\"schema\": 2}"}) {
+    write(files / "theirs/experiment.json", text);
+    for (const Arguments& arguments : {compare_without_report(files, "theirs"),
+                                       compare_without_report(files, "theirs") + Arguments{"--force"}})
+      expect_complaint(run_pfaff(arguments), 2, {"theirs' holds a file experiment.json that describes no"},
+                       text);
+    EXPECT_EQ(text_of(files / "theirs/experiment.json"), text);
+  }
+  // With runs it is taken up again, and described anew.
+  write(files / "out/experiment.json", "{\"schema\": 2");
+  EXPECT_EQ(run_pfaff(plain).status, 0);
+  EXPECT_EQ(json_of(text_of(files / "out/experiment.json"))["name"], "test");
 }
 
 // An ensemble of two formulations: medians, and findings of which one is wrong on purpose.
