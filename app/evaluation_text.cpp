@@ -106,7 +106,7 @@ void add_constraint_facts(const json& j, Rows& facts) {
   }
 }
 
-void add_bracket_facts(const json& bracket, Rows& facts) {
+void add_bracket_facts(const json& bracket, bool on_constraints, Rows& facts) {
   facts.push_back({"{,}_nh", "rank " + std::to_string(bracket["rank"].get<std::size_t>()) + " of " +
                                  std::to_string(bracket["bracket"].size())});
   facts.push_back({"Casimirs", joined(bracket["casimirs"]) + " to " +
@@ -117,8 +117,9 @@ void add_bracket_facts(const json& bracket, Rows& facts) {
   if (bracket["flow_difference"].is_null()) return;
   const std::string difference = shown_value(bracket["flow_difference"]);
   const bool same = number_in(difference) < 1e-8;
-  facts.push_back({"flow", same ? "{z, H}_nh is the rhs, to " + difference
-                                : "{z, H}_nh is not the rhs, which differs by " + difference});
+  facts.push_back({"flow", (on_constraints ? "" : "on the constraints, where this state is not, ") +
+                               (same ? "{z, H}_nh is the rhs, to " + difference
+                                     : "{z, H}_nh is not the rhs, which differs by " + difference)});
 }
 
 std::string constraint_tables(const json& j) {
@@ -138,7 +139,8 @@ std::string constraint_tables(const json& j) {
   }
   std::string text = '\n' + table(rows);
   for (const char* key : {"S", "A", "S_D"})
-    if (j.contains(key) && !j[key].is_null()) text += matrix_text(key, j[key], own, key[0] == 'S');
+    if (j.contains(key) && !j[key].is_null())
+      text += matrix_text(key, j[key], j.value("velocity_names", own), key[0] == 'S');
   if (j.contains("W")) text += matrix_text("W", j["W"], names, false);
   if (j.contains("dirac_bracket")) text += matrix_text("{,}_D", j["dirac_bracket"], j["coordinates"], false);
   if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) {
@@ -172,7 +174,14 @@ std::string evaluation_text(const json& j) {
     if (!j[key].is_null()) known.push_back({label, shown_value(j[key])});
   if (structured) add_structure_facts(j, known);
   if (constrained) add_constraint_facts(j, known);
-  if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) add_bracket_facts(j["nonholonomic"], known);
+  if (j.contains("nonholonomic") && !j["nonholonomic"].is_null()) {
+    const auto& values = j["constraints"];
+    add_bracket_facts(
+        j["nonholonomic"],
+        std::all_of(values.begin(), values.end(),
+                    [](const json& value) { return std::abs(number_in(shown_value(value))) < 1e-8; }),
+        known);
+  }
   const bool forced = j.contains("constraint_forces") && !j["constraint_forces"].is_null();
   Rows rows{{"coordinate", "state", "rhs"}};
   if (structured)

@@ -37,8 +37,8 @@ struct EvaluationSettings {
 /// for up to 200 constraints, the solvers by determinants for up to 60.
 ///
 /// Constraints of velocities also have
-/// - structure (of S), velocity_rows, the rows of A, and S; where they move, multipliers, the lambda of S
-/// lambda = A H_pp (-H_q - p'), and constraint_forces, -A^T lambda;
+/// - structure (of S), velocity_rows, the rows of A, velocity_names, which name rows of both, and S; where
+/// they move, multipliers, the lambda of S lambda = A H_pp (-H_q - p'), and constraint_forces, -A^T lambda;
 /// - nonholonomic: P, the projector onto admissible velocities; bracket, the tensor Pibar at the momenta that
 /// P^T projects onto the constraints; its rank, its casimirs (names) with casimir_residual, the largest of
 /// |Pibar d psi| relative to its terms, and one_form_residual, that of the covectors (A_alpha, 0);

@@ -47,6 +47,17 @@ void add_blocks(const Point<T>& at, const ConstraintBrackets<T>& brackets, json&
   j["S_D"] = rubs ? rows(friction) : json(nullptr);
 }
 
+// What the constraints at the level of velocities are called: holonomic ones, named phi and phi~ in turn, by
+// phi~.
+std::vector<std::string> velocity_names(const Model& model) {
+  std::vector<std::string> names;
+  for (const std::string& name : model.constraint_names()) {
+    if (!names.empty() && name == names.back() + "~") names.pop_back();
+    names.push_back(name);
+  }
+  return names;
+}
+
 // A, row by row, S = A H_pp A^T and its structure, of constraints at the level of velocities.
 template <class T>
 void add_velocity_constraints(Point<T>& at, json& j) {
@@ -70,6 +81,7 @@ void add_velocity_constraints(Point<T>& at, json& j) {
     for (std::size_t k = 0; k < count; ++k) s(k, i) = column[k];
   }
   j["velocity_rows"] = rows(a);
+  j["velocity_names"] = velocity_names(*at.model);
   j["S"] = rows(s);
 }
 

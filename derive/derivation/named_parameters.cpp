@@ -130,8 +130,17 @@ class Search {
   Search(const SystemPlugin& system, const Assignments& settings, const Deriver& deriver)
       : system_(system), settings_(settings), deriver_(deriver) {}
 
-  /// The equations with all candidates as symbols; nothing where one of them cannot be.
-  std::optional<Equations> symbolic(const std::vector<Candidate>& candidates) const {
+  /// The equations with all candidates as symbols; nothing where one of those from number `first` on cannot
+  /// be.
+  std::optional<Equations> symbolic(const std::vector<Candidate>& candidates, std::size_t first) const {
+    std::optional<Equations> found = symbolic_near_values(candidates);
+    for (std::size_t k = first; found && k < candidates.size(); ++k)
+      if (!holds_far_away(*found, candidates, k)) found.reset();
+    return found;
+  }
+
+ private:
+  std::optional<Equations> symbolic_near_values(const std::vector<Candidate>& candidates) const {
     std::array<std::optional<Equations>, 3> at;
     for (std::size_t which = 0; which < at.size(); ++which) {
       at[which] = with(candidates, which);
@@ -171,7 +180,45 @@ class Search {
     return equations;
   }
 
- private:
+  // Whether the equations are those of the system, too, where the parameter has the other sign or another
+  // size: it may enter through min, max, abs or a choice between formulas. What the system refuses says
+  // nothing.
+  [[nodiscard]] bool holds_far_away(const Equations& equations, const std::vector<Candidate>& candidates,
+                                    std::size_t which) const {
+    const Candidate& c = candidates[which];
+    for (const Real& share : {Real(-1), Real(64), Real::fraction(1, 64)}) {
+      const Real value = share * c.value;
+      if (value.value() < c.parameter->minimum || value.value() > c.parameter->maximum) continue;
+      Assignments settings = settings_;
+      settings.emplace_back(c.parameter->name, to_string(value));
+      try {
+        const std::shared_ptr<const Model> model = system_.make(settings);
+        std::vector<Quad> z;
+        for (const Real& x : model->initial())
+          z.push_back(x.quad() + Quad(static_cast<double>(z.size() + 1) / 16));
+        z.resize(static_cast<std::size_t>(equations.tape.inputs) - candidates.size(), Quad(1));
+        const std::vector<Quad> expected = values_at(deriver_(*model).tape, z);
+        for (const Candidate& other : candidates) z.push_back((&other == &c ? value : other.value).quad());
+        if (!agree(values_at(equations.tape, z), expected)) return false;
+      } catch (const InputError&) {
+        continue;
+      }
+    }
+    return true;
+  }
+  static std::vector<Quad> values_at(const Tape& tape, const std::vector<Quad>& z) {
+    std::vector<Quad> values(tape.outputs.size());
+    Replay<Quad> replay({std::shared_ptr<const Tape>(), &tape});
+    replay(Real::fraction(1, 3).quad(), z.data(), values.data());
+    return values;
+  }
+  static bool agree(const std::vector<Quad>& a, const std::vector<Quad>& b) {
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (isfinite(a[k]) && isfinite(b[k]) && abs(a[k] - b[k]) > Quad(1e-20) * (abs(a[k]) + abs(b[k])))
+        return false;
+    return true;
+  }
+
   // The equations where the candidates have their samples number `which`.
   [[nodiscard]] std::optional<Equations> with(const std::vector<Candidate>& candidates,
                                               std::size_t which) const {
@@ -230,13 +277,13 @@ Equations with_named_parameters(const SystemPlugin& system, const Assignments& s
   const Search search(system, settings, deriver);
   std::vector<Candidate> chosen = candidates_of(system, *model, equations.tape.constants);
   if (chosen.empty()) return equations;
-  if (auto found = search.symbolic(chosen)) return keep_used(std::move(*found));
+  if (auto found = search.symbolic(chosen, 0)) return keep_used(std::move(*found));
   // One by one, so that one that cannot be a symbol keeps no other from being one.
   std::vector<Candidate> kept;
   std::optional<Equations> best;
   for (const Candidate& candidate : chosen) {
     kept.push_back(candidate);
-    if (auto found = search.symbolic(kept)) {
+    if (auto found = search.symbolic(kept, kept.size() - 1)) {
       best = std::move(found);
     } else {
       kept.pop_back();

@@ -16,6 +16,14 @@ using windows::Shape;
 
 constexpr std::size_t fewest_samples = 32;
 
+// What a slow exchange within the motion looks like, where energy goes from one mode to others: the error of
+// a method that keeps the energy follows it, swells a few times, and comes back. Curves are called by their
+// power or rate where they are more than that.
+constexpr double steepest = 4;            // power of time of a trend that is called by it
+constexpr double clean = 100;             // change of a steeper one, of the oscillation beside it
+constexpr double least_exponential = 10;  // change of an exponential trend, the same
+constexpr double least_curved = 10;       // growth of an oscillation faster than time
+
 template <class... A>
 std::string told(const char* format, A... numbers) {
   return formatted(format, numbers...);
@@ -82,11 +90,15 @@ std::optional<Verdict> growing_spread(const Facts& facts) {
     return of_rate(fit.rate,
                    told("oscillation grows %.1e-fold; scatter %.2g about exp and %.2g about a power",
                         fit.growth, fit.scatter, fit.power_scatter));
-  if (const auto fit = windows::power_fit(v);
-      fit && fit->scatter < 0.35 && fit->exponent.low > 0 && fit->exponent.value >= 0.7)
+  if (const auto fit = windows::power_fit(v); fit && fit->scatter < 0.35 && fit->exponent.low > 0 &&
+                                              fit->exponent.value >= 0.7 &&
+                                              (fit->exponent.value <= 1.3 || growth > least_curved))
     return of_power(fit->exponent,
                     told("oscillation grows %.2g-fold like t^%.2f", growth, fit->exponent.value));
-  return undetermined(told("oscillation grows %.2g-fold but neither as a power nor exponentially", growth));
+  return undetermined(told(growth > least_curved
+                               ? "oscillation grows %.2g-fold but neither as a power nor exponentially"
+                               : "oscillation grows %.2g-fold, too little to tell how",
+                           growth));
 }
 
 /// Whether the spread rises or falls throughout, by half of the trend's change or more: then the trend may be
@@ -110,16 +122,20 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   }
   const Shape::Kind kind = facts.shapes[facts.shape].kind;
   const bool small = facts.jump < facts.rest;
-  if (small && kind != Shape::Kind::line && !(facts.jump > 0.3 * facts.rest && facts.evidence() > 15))
-    return {};
   const std::string moves = told("moves by %.2g = %.2g x oscillation; log evidence %.2g", facts.jump,
                                  facts.jump / facts.rest, facts.evidence());
+  if (small && kind != Shape::Kind::line) {
+    if (!(facts.jump > 0.3 * facts.rest && facts.evidence() > 15)) return {};
+    return undetermined("a curve that is smaller than the oscillation; " + moves);
+  }
   const bool bent = facts.curve && facts.rest > (kind == Shape::Kind::line ? 0.12 : 0.03) * facts.jump;
   const Parameter rate = parameter_of(facts, Shape::Kind::exponential);
   if (kind == Shape::Kind::exponential && rate.estimate.value >= 2) {
     if (rate.estimate.value > 16 && !facts.maxima.steady) return {};
     if (rate.at_end || (facts.curve && facts.maxima.scatter >= 0.25))
       return undetermined("grows like no power and no exponential; " + moves);
+    if (facts.jump < least_exponential * facts.rest)
+      return undetermined("too small to tell a power from an exponential; " + moves);
     return of_rate(widened(rate.estimate), moves);
   }
   Parameter power = parameter_of(facts, Shape::Kind::power);
@@ -127,6 +143,8 @@ std::optional<Verdict> accepted_trend(const Facts& facts) {
   const double p = power.estimate.value;
   if (p < 0.75) return {};
   if (p > 1.3) {
+    if (power.estimate.low > steepest && facts.jump < clean * facts.rest)
+      return undetermined(told("begins late, like t^%.2f; ", p) + moves);
     if (power.at_end || bent || ((facts.samples < few_samples || facts.curve) && facts.evidence() < 8))
       return undetermined(told("t^%.2g does not fit; ", p) + moves);
     return of_power(power.estimate, told("like t^%.2f; ", p) + moves);

@@ -47,8 +47,36 @@ TEST(Falsify, ClaimsThatHold) {
 }
 
 TEST(Falsify, NoClaims) {
-  const auto j = falsified({"rk4"}, 1);  // nothing was tried, which shows nothing
+  const auto j = falsified({"rk4"}, 0);  // nothing is false where nothing is said
   EXPECT_TRUE(j["results"].empty());
+  EXPECT_NE(run_pfaff({"falsify", "rk4"}).out.find("nothing is claimed that could be falsified"),
+            std::string::npos);
+}
+
+// A method is to blame for nothing where the motion begins off its constraints, or the system is not what it
+// states.
+TEST(Falsify, SystemsThatAreThemselvesWrongAreRefused) {
+  const TemporaryDirectory files;
+  const auto refused = [&](const std::string& text, const char* method, const char* claim, const char* said) {
+    write(files / "model.toml", text);
+    expect_complaint(run_pfaff({"falsify", method, "--claim", claim, "--system", files / "model.toml"}), 2,
+                     {said}, said);
+  };
+  const std::string sphere =
+      "coordinates = [\"x\", \"y\", \"z\", \"px\", \"py\", \"pz\"]\n"
+      "hamiltonian = \"(px^2 + py^2 + pz^2)/2 + z\"\n"
+      "holonomic = { sphere = \"x^2 + y^2 + z^2 - 1\" }\n";
+  refused(sphere + "initial = [\"3/5\", 0, \"-4/5\", 1, 1, 0]\n", "rk4", "constraints",
+          "sphere~ is off by 1.2");
+  write(files / "model.toml", sphere + "initial = [\"3/5\", 0, \"-4/5\", 0, 1, 0]\n");
+  EXPECT_EQ(run_pfaff({"falsify", "rk4", "--claim", "constraints", "--system", files / "model.toml"}).status,
+            1);
+  const std::string form =
+      "coordinates = [\"a\", \"b\"]\ninitial = [0.3, 0.2]\nstructure = [[\"0\", \"1 + t\"], "
+      "[\"-1 - t\", \"0\"]]\ncovector = [\"a\", \"b\"]\n";
+  refused(form, "midpoint-darboux", "K-symplectic", "is itself not what it states: self-adjoint: rate of K");
+  refused("coordinates = [\"q\", \"p\"]\ninitial = [1, 0]\nhamiltonian = \"p^2/2 + q^4/4\"\n", "verlet",
+          "energy", "verlet needs separable");
 }
 
 TEST(Falsify, Text) {

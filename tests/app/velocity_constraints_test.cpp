@@ -120,6 +120,29 @@ TEST(VelocityConstraintsCommand, EvaluationsShowRowsAndMultipliers) {
   EXPECT_FALSE(other.contains("constraints"));
 }
 
+// Beside holonomic constraints, which hold at both levels, S is that of the level of velocities.
+TEST(VelocityConstraints, OfBothKindsAreNamedWhereTheyStand) {
+  const TemporaryDirectory files;
+  write(files / "model.toml",
+        "coordinates = [\"x\", \"y\", \"z\", \"px\", \"py\", \"pz\"]\ninitial = [1, 0, 0]\n"
+        "initial_velocities = [0, 1, 0]\nhamiltonian = \"(px^2 + py^2 + pz^2)/2 + px*y\"\n"
+        "velocity_constraints = [{ name = \"flat\", row = [\"0\", \"0\", \"1\"] }]\n"
+        "holonomic = { circle = \"x^2 + y^2 - 1\" }\n");
+  const auto j = json_of(run_pfaff({"evaluate", files / "model.toml", "--json"}).out);
+  EXPECT_EQ(j["velocity_names"], (nlohmann::json{"circle~", "flat"}));
+  EXPECT_NE(run_pfaff({"evaluate", files / "model.toml"}).out.find("circle~  4        0"), std::string::npos)
+      << run_pfaff({"evaluate", files / "model.toml"}).out;
+  // The bracket is that at the momenta on the constraints, and of no other is anything said.
+  const auto flow = [&](const char* initial) {
+    return run_pfaff({"evaluate", "sleigh", "--set", std::string("initial=") + initial}).out;
+  };
+  EXPECT_NE(flow("0,0,0,1,0,0").find("flow         {z, H}_nh is the rhs"), std::string::npos)
+      << flow("0,0,0,1,0,0");
+  EXPECT_NE(flow("0,0,0,1,1,0").find("on the constraints, where this state is not, {z, H}_nh is the rhs"),
+            std::string::npos)
+      << flow("0,0,0,1,1,0");
+}
+
 TEST(VelocityConstraintsCommand, DescriptionsNameTheFormulationsThatFit) {
   const auto j = json_of(run_pfaff({"describe", "sleigh", "--json"}).out);
   EXPECT_EQ(j["formulations"], (nlohmann::json{"nonholonomic", "vakonomic"}));

@@ -98,6 +98,20 @@ potential = "(a + b)*q^2/2 + c*d^2*q^4/4 + none*q"
             1e-33);
 }
 
+// Near its value each of these but e enters as a factor.
+TEST(NamedParameters, StayNumbersWhereTheyAreFactorsNearTheirValuesAlone) {
+  const TemporaryDirectory directory;
+  const std::string path = directory / "bent.toml";
+  std::ofstream(path) << R"toml(name = "bent"
+reference = "none"
+parameters = { a = 2, b = 3, c = "3/2", e = 7 }
+coordinates = ["q", "p"]
+initial = [1, 0]
+hamiltonian = "p^2/2 + min(a, 5)*q^2 + abs(b)*q^4 + select(c > 10, 7, c)*q^6 + e*q^8"
+)toml";
+  EXPECT_THAT(symbols(derived_with_names(system_named(path), {}, "birkhoffian")), ElementsAre("e"));
+}
+
 // phi of q'' + q = 0 is -tan(tau/2) (q^2 + p^2).
 TEST(GeneratingCoefficients, AreClosedFormsOfTheOscillator) {
   const SystemPlugin& system = systems().get("harmonic-oscillator", "system");

@@ -12,6 +12,8 @@
 #include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/core/system.hpp>
 #include <pfaff/runs/asked_for.hpp>
+#include <pfaff/runs/state_checks.hpp>
+#include <pfaff/verify/check.hpp>
 #include <pfaff/verify/check_budget.hpp>
 #include <pfaff/verify/commands/commands.hpp>
 #include <pfaff/verify/falsification/falsify.hpp>
@@ -143,17 +145,20 @@ int search(const FalsificationOptions& options, const Common& common) {
         not_written = error.what();
       }
   }
+  const bool ok = falsified == 0 && (systems > 0 || results.empty());
   if (common.json) {
-    std::cout << json_text(
-        {{"schema", 1}, {"ok", falsified == 0 && systems > 0}, {"seed", settings.seed}, {"results", list}});
+    std::cout << json_text({{"schema", 1}, {"ok", ok}, {"seed", settings.seed}, {"results", list}});
   } else if (!common.quiet) {
     print(results, common);
     std::cout << (results.empty() ? "" : "\n") << results.size() << " claims on " << systems
               << " random systems, seed " << settings.seed << ": " << falsified << " falsified\n";
-    if (systems == 0) std::cout << "NOT OK: no claim could be tried on any system\n";
+    if (results.empty())
+      std::cout << "nothing is claimed that could be falsified; --claim names what to try\n";
+    else if (systems == 0)
+      std::cout << "NOT OK: no claim could be tried on any system\n";
   }
   if (!not_written.empty()) throw RunError(not_written);
-  return falsified == 0 && systems > 0 ? 0 : 1;
+  return ok ? 0 : 1;
 }
 
 // Judges one claim on a system by name, at its initial state.
@@ -166,11 +171,24 @@ int show(const FalsificationOptions& options, const Common& common) {
   JudgedStep at{model_in_scope(*method, claim, system), system->initial(), number_of(options.at, "--at"),
                 number_of(options.step, "--step"), options.steps};
   if (!(at.step > Real(0))) throw InputError("--step: expected a number above 0, got " + options.step);
-  if (at.model == nullptr)
-    throw InputError("--system: " + options.system + " does not fit " + method->called() +
-                     " or is not in the scope of " + options.claim +
+  if (at.model == nullptr) {
+    if (const std::string why = method->refuses(*system); !why.empty() && in_scope(claim, *system))
+      throw InputError("--system: " + why);
+    throw InputError("--system: " + options.system + " is not in the scope of " + options.claim +
                      ", which is: " + std::string(claim_row(claim).scope));
+  }
+  if (system->restricted()) {
+    std::vector<Quad> z;
+    for (const Real& x : system->initial()) z.push_back(x.quad());
+    if (const Consistency found = consistency_of(*system, at.time.quad(), z); !found.on_constraints())
+      throw InputError("--system: " + found.where + "; expected a state on the constraints");
+  }
   const Interruption interruption;
+  // What a method does on a system that is not what it states says nothing of the method.
+  for (const Check& check : check_system(system->name(), system, {}))
+    if (own_identity(check) && !good(check))
+      throw InputError("--system: " + options.system + " is itself not what it states: " + check.claim +
+                       " does not hold (see pfaff verify " + options.system + ")");
   const Budget budget(judged_by_long_runs(claim) ? limits_of_long_runs : limits_of_check);
   const Judgement judgement = judge(*method, claim, at);
   if (common.json) {
