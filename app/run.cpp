@@ -269,7 +269,8 @@ void add_run(CLI::App& app, Common& common, Action& action) {
       ->type_name("FILE");
   sub->add_option("--precision", options->precision, "The numbers; double without")->type_name("double|quad");
   sub->add_option("--reference", options->reference,
-                  "What errors are against: an exact solution (default), that or a 30-digit one, nothing; "
+                  "What errors are against: the system's own solution where it has one (default), that or a "
+                  "30-digit one, nothing; "
                   "every: at every row, not at 200 of them")
       ->type_name("exact|solution|none[,every]");
   sub->add_option("--max-steps", options->max_steps, "Steps that a run may take (default 1e12)")

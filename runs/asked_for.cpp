@@ -65,6 +65,10 @@ std::string what_to_do(const MethodInstance& method, const Model& model) {
   std::string text;
   if (method.needs().has(Facet::separable) && model.facets().has(Facet::hamiltonian))
     text = "; kinetic and potential energies that are written apart make a system separable";
+  if (const MethodPlugin* plugin = integrators().find(method.descriptor().name))
+    for (const Parameter& parameter : plugin->parameters())
+      if (parameter.kind == Parameter::Kind::plugin)
+        text += "; its parameter '" + parameter.name + "' takes other methods";
   constexpr std::size_t most = 6;
   // Those that keep most of what the system has come first.
   std::vector<std::pair<std::size_t, std::string>> fitting;

@@ -5,6 +5,7 @@
 
 #include <pfaff/core/native/compiled_model.hpp>
 #include <pfaff/core/tape/replay.hpp>
+#include <pfaff/integrators/support/continuation.hpp>
 
 namespace pfaff {
 
@@ -19,15 +20,19 @@ struct ReplayedStep {
     using T = Scalar<P>;
     std::vector<T> arguments, results;  // the state, the memory and h; the same without h
     Replay<T> replay;
+    Continuation<P> continuation;
     Work(const ReplayedStep& method, const P& p)
         : arguments(p.size() + method.step_tape.memory + 1, T(0)),
           results(arguments.size() - 1),
-          replay(method.step_tape.tape) {}
+          replay(method.step_tape.tape),
+          continuation(p) {}
   };
 
   template <class P>
   Status step(const P& p, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     const std::size_t size = p.size();
+    const bool remembers = step_tape.memory > 0;
+    if (remembers && !w.continuation.holds(t, h, z)) w.arguments.assign(w.arguments.size(), Scalar<P>(0));
     std::copy(z.begin(), z.end(), w.arguments.begin());
     w.arguments.back() = h;
     p.counters().fields += step_tape.fields;
@@ -35,6 +40,7 @@ struct ReplayedStep {
     std::copy_n(w.results.begin(), size, z.begin());
     std::copy(w.results.begin() + static_cast<std::ptrdiff_t>(size), w.results.end(),
               w.arguments.begin() + static_cast<std::ptrdiff_t>(size));
+    if (remembers) w.continuation.remember(t + h, h, z);
     return Status::converged;
   }
 

@@ -21,7 +21,9 @@ namespace pfaff {
 struct StepTape {
   std::shared_ptr<const Tape> tape;  // of the state, the memory and the step h, at the time t
   std::int64_t fields = 0;           // right-hand sides that a step counts as
-  std::size_t memory = 0;            // numbers that a step keeps for the next one, zeros at first
+  // Numbers that a step keeps for the next one; zeros at first, and where a step does not begin where the
+  // last one, of the same size, ended.
+  std::size_t memory = 0;
 };
 
 /// What is said of such a method beside its step.

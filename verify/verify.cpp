@@ -62,7 +62,7 @@ void validate(const VerificationSettings& settings) {
 // claim without any check is one in whose scope none of the systems is that the method takes.
 void add_claims_judged_nowhere(
     std::vector<Check>& checks,
-    const std::function<const MethodDescriptor*(const std::string& method)>& tried) {
+    const std::function<const MethodDescriptor*(const std::string& method)>& tried, bool on_some = false) {
   std::map<std::pair<std::string, std::string>, std::pair<int, Check>>
       claims;  // judged, and one that was not
   std::map<std::string, Check> methods;
@@ -78,7 +78,7 @@ void add_claims_judged_nowhere(
   }
   for (auto& [key, found] : claims) {
     auto& [judged, check] = found;
-    if (judged > 0 || key.second.ends_with(" in a large step")) continue;
+    if (on_some || judged > 0 || key.second.ends_with(" in a large step")) continue;
     check.claim = key.second;
     check.result = CheckResult::fail;
     check.in_scope = true;
@@ -101,7 +101,7 @@ void add_claims_judged_nowhere(
       missing.result = CheckResult::fail;
       missing.in_scope = true;
       missing.reason = "judged on no system; none that the method takes is in its scope";
-      checks.push_back(missing);
+      checks.push_back(on_some ? not_judged(missing, "out of its scope, which is: " + missing.scope) : missing);
     }
   }
 }
@@ -211,12 +211,14 @@ std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
   for (const auto& model : on)
     if (std::find(systems.begin(), systems.end(), model) == systems.end())
       look_for_fault_of_system(checks, model);
-  if (on.empty())
-    add_claims_judged_nowhere(checks, [&](const std::string& plugin) -> const MethodDescriptor* {
-      for (const MethodToVerify& one : methods)
-        if (one.method->descriptor().name == plugin) return &one.method->descriptor();
-      return nullptr;
-    });
+  add_claims_judged_nowhere(
+      checks,
+      [&](const std::string& plugin) -> const MethodDescriptor* {
+        for (const MethodToVerify& one : methods)
+          if (one.method->descriptor().name == plugin) return &one.method->descriptor();
+        return nullptr;
+      },
+      !on.empty());
   return checks;
 }
 

@@ -93,6 +93,9 @@ class Sampler {
     structure_ = measure->on({*start_, run_.steps, *solution_, *start_});
     if (structure_->looks().empty()) structure_.reset();
   } catch (const BudgetSpent&) {
+  } catch (const RunError&) {  // of a method whose steps have no digits beyond those of a double
+    structure_.reset();
+    ++record_.structure_failures;
   }
   // A run that is told to end meanwhile keeps the sample without its residual, and ends at its next step.
   void measure_structure(const T& t, const std::vector<T>& z, Sample<T>& sample) try {
@@ -106,6 +109,8 @@ class Sampler {
       ++record_.structure_failures;
     }
   } catch (const BudgetSpent&) {
+  } catch (const RunError&) {  // of a method whose steps have no derivatives
+    ++record_.structure_failures;
   }
 
   // Passes on the last sample, if it waits for that.

@@ -105,11 +105,13 @@ template <BeyondDouble T>
 T acos(const T& x) {
   return T(2) * atan(sqrt((T(1) - x) / (T(1) + x)));
 }
-/// The angle of the point (x, y), between -pi and pi; no number at the origin.
+/// The angle of the point (x, y), between -pi and pi; no number at the origin. It is that of the ratio of the
+/// smaller coordinate to the larger one, with derivatives everywhere else.
 template <BeyondDouble T>
 T atan2(const T& y, const T& x) {
-  const T r = sqrt(x * x + y * y);
-  return T(2) * atan(select(x, y / (r + x), (r - x) / y));
+  static const Real pi = *Real::parse("3.1415926535897932384626433832795028841971693993751058209749");
+  const T flat = select(x, x, -x) - select(y, y, -y), up = select(-y, T(-1), T(1));
+  return select(flat, select(-x, up * T(pi), T(0)), up * T(pi / 2)) + atan(select(flat, y / x, -x / y));
 }
 template <BeyondDouble T>
 T erf(const T& x) {

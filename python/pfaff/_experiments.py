@@ -81,7 +81,7 @@ class WorkPrecision:
 
     Attributes:
         curves: for each case a dictionary that has, by the label of a method, (nanoseconds for a unit of time, largest
-            error), two arrays over its steps, by falling error.
+            error), two arrays over its steps, by rising cost.
     """
 
     def __init__(self, comparison: Comparison) -> None:
@@ -279,7 +279,13 @@ def _labelled(methods: Any) -> dict[str, Any]:
         return dict(methods)
     if not isinstance(methods, (list, tuple)):
         raise InputError(f"methods: expected a list of methods, or a dictionary of them by their labels, got {shown(methods)}")
-    return {_label(method): method for method in methods}
+    labelled: dict[str, Any] = {}
+    for method in methods:
+        label = _label(method)
+        if label in labelled:
+            raise InputError(f"methods: two of them are called '{label}'; expected a dictionary of them by labels that differ")
+        labelled[label] = method
+    return labelled
 
 
 def _label(method: Any) -> str:

@@ -2,6 +2,8 @@
 from __future__ import annotations
 
 import decimal
+import itertools
+import weakref
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -34,6 +36,24 @@ class Outcome:
     """The states, shape (rows, dimension); the one at which the call began is not among them."""
 
 
+class _Callbacks(dict):
+    """The callbacks of an integration, by numbers. One may hold the integration, and what the extension holds is not seen by Python's
+    collector: the extension has functions that find the callbacks here for as long as the integration lives."""
+
+    def caller(self, callback: Callable[[float, np.ndarray], Any]) -> tuple[int, Callable[[float, np.ndarray], Any]]:
+        key, here = next(self.numbers), weakref.ref(self)
+        self[key] = callback
+
+        def called(t: float, z: np.ndarray) -> Any:
+            callbacks = here()
+            found = None if callbacks is None else callbacks.get(key)
+            return None if found is None else found(t, z)
+
+        return key, called
+
+    numbers = itertools.count()
+
+
 class Watching:
     """A callback that watches an integration until remove() is called, or the end of the block where it is used as a context manager.
 
@@ -46,16 +66,16 @@ class Watching:
     [0.05, 0.1]
     """
 
-    def __init__(self, of: Integration, number: int) -> None:
-        self._of, self._number = of, number
+    def __init__(self, of: Integration, number: int, key: int) -> None:
+        self._of, self._number, self._key = of, number, key
 
     def remove(self) -> None:
         """The callback is not called from now on; nothing happens where it was removed before.
 
-        It may be removed by itself, by another callback and by another thread while steps are taken. Since steps are taken
-        many at a time, it may then have been called for steps behind those that another callback has seen.
+        It may be removed by itself, by another callback and by another thread while steps are taken.
         """
         self._of._it.unwatch(self._number)
+        self._of._callbacks.pop(self._key, None)
 
     def __repr__(self) -> str:
         return f"<callback of {self._of}>"
@@ -109,6 +129,7 @@ class Integration:
         self.precision = precision
         asked["initial"] = self._own_state() if initial is None else self._state(initial, "initial")
         self._it = _pfaff.Integration(self.system.model, self.method.instance, asked)
+        self._callbacks = _Callbacks()
         self.outcome: Outcome | None = None
 
     def _own_state(self) -> list[str]:
@@ -123,7 +144,7 @@ class Integration:
     def _around(self, it: _pfaff.Integration) -> Integration:
         other = object.__new__(Integration)
         other.system, other.method, other.precision = self.system, self.method, self.precision
-        other._it, other.outcome = it, None
+        other._it, other._callbacks, other.outcome = it, _Callbacks(), None
         return other
 
     @property
@@ -191,11 +212,14 @@ class Integration:
     def watch(self, callback: Callable[[float, np.ndarray], Any], *, every: int = 1) -> Watching:
         """Calls callback(t, z) with the state after each `every` steps, counted from t0, from now on, until what it gives is removed.
 
-        z is a copy, shape (dimension,). The integration ends at the state at which the callback gives True. What it
-        raises ends it there too, and reaches who asked for the steps. Callbacks cannot step the integration, whose own time
+        z is a copy, shape (dimension,). The integration ends at the state at which the callback gives True; what it raises ends
+        it there too, and reaches who asked for the steps. Of several callbacks each is called with a state before any is with
+        the next one. Callbacks cannot step the integration, whose own time
         and state may be ahead of t and z by then: steps are taken many at a time.
         """
-        return Watching(self, self._it.watch(function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1)))
+        times = whole(every, "every", 1)
+        key, called = self._callbacks.caller(function(callback, "callback", "a function of (t, z)"))
+        return Watching(self, self._it.watch(called, times), key)
 
     def beside(self, state: Any) -> Integration:
         """The same method from another state, at the time reached and with the same step. It remembers nothing."""

@@ -186,7 +186,8 @@ def method(*, order: int, preserves: Sequence[str] = (), needs: Sequence[str] = 
             objects; it may then branch on values, and an argument `work` is a dictionary that it keeps things in.
         compiled: compile what was recorded by the system's C++ compiler, in double precision.
         memory: how many numbers a traced step keeps for the next one, a number or a function of the dimension. The
-            function then has an argument `memory`, zeros at first, and gives (state, memory).
+            function then has an argument `memory`, zeros at first and where a step does not begin where the last one, of
+            the same size, ended, and gives (state, memory).
 
     Raises:
         InputError: unknown claims and facets, arguments that do not fit.

@@ -49,7 +49,8 @@ def solve_ivp(
         t_span: (begin, end); the end may lie before the begin.
         y0: the state at the begin, shape (n,); of a system its own without it.
         method: a name, the path of a table, or a `pfaff.Method`.
-        t_eval: the times at which states are wanted, in order; all steps without it.
+        t_eval: the times at which states are wanted, in order; without it those of all steps, or of a method that chooses its steps
+            101 at even distances.
         dense_output, events: refused; `t_eval` and `pfaff.Integration.watch` take their places.
         vectorized: not used, since fun is not called again.
         args: further arguments of fun.
@@ -61,7 +62,8 @@ def solve_ivp(
 
     Returns:
         SciPy's result: t, shape (points,), y, shape (n, points), success, status (0, or -1 where a step failed), message,
-        nfev, njev, nlu, and besides `step`, the step that was taken; None of a method that chooses its steps. Where a
+        nfev, njev and nlu of the run whose states these are, without the runs that found its step, and besides `step`, the step
+        that was taken; None of a method that chooses its steps. Where a
         step failed, t and y have what there was by then.
 
     Raises:

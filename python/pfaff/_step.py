@@ -70,6 +70,9 @@ class Problem:
         return formula
 
 
+_MOST_INSTANCES = 64  # of one function, with other values of its parameters each
+
+
 class StepFunction:
     """A step that is a function of Python, with what it claims."""
 
@@ -102,6 +105,8 @@ class StepFunction:
             of = {**self.claims, "parameters": texts, "compiled": self.compiled}
             allowed = frozenset(self.claims["needs"])
             make = self._traced if self.traced else self._called
+            if len(self._instances) >= _MOST_INSTANCES:
+                del self._instances[next(iter(self._instances))]
             self._instances[tuple(texts)] = make(of, values, allowed, what)
         return self._instances[tuple(texts)]
 
@@ -116,11 +121,13 @@ class StepFunction:
         return fractions.Fraction(value) if isinstance(value, str) else value
 
     def _traced(self, of: dict, values: dict, allowed: frozenset[str], what: str) -> _pfaff.MethodInstance:
-        place = place_of(self.function)
+        # Without this object itself, which holds the instance that holds what is made here: the collector of Python does not see
+        # through the instance.
+        function, memory, order, place = self.function, self.memory, self.claims["order"], place_of(self.function)
 
         def trace(system: _pfaff.Model) -> tuple[_pfaff.Tape, int, int]:
             n = system.dimension
-            kept = whole(self.memory(n), "memory", 0) if callable(self.memory) else self.memory
+            kept = whole(memory(n), "memory", 0) if callable(memory) else memory
             given = {key: value if isinstance(value, (int, str)) else _pfaff.constant(text_of_number(value, key), key) for key, value in values.items()}
             fields = 0
 
@@ -136,7 +143,7 @@ class StepFunction:
                 fields = 0
                 problem = Problem(system, allowed, evaluate)
                 known = {"memory": array_of(numbers[n : n + kept])} if kept else {}
-                made = self.function(problem, t, numbers[-1], array_of(numbers[:n]), **known, **given)
+                made = function(problem, t, numbers[-1], array_of(numbers[:n]), **known, **given)
                 parts = [made] if not kept else made if isinstance(made, tuple) and len(made) == 2 else [None]
                 results = [flat(part, f"{place}{what}") for part in parts]
                 for one, expected in zip(results, (n, kept)):
@@ -146,31 +153,20 @@ class StepFunction:
 
             with noted_constants() as noted:
                 tape = recorded(n + kept + 1, step, f"{place}{what}")
-            self._warn_of(noted, what)
+            if order > 0:
+                _warn_of(noted, what)
             return tape, fields, kept
 
         return _pfaff.traced_method(of, trace)
 
     def _called(self, of: dict, values: dict, allowed: frozenset[str], what: str) -> _pfaff.MethodInstance:
-        function = self.function
+        function, keeps = self.function, bool(self.extra)  # without this object itself, as above
 
         def step(evaluate: Callable, system: _pfaff.Model, t: Any, h: Any, z: np.ndarray, work: dict) -> Any:
-            known = {"work": work} if self.extra else {}
+            known = {"work": work} if keeps else {}
             return function(Problem(system, allowed, evaluate), t, h, z, **known, **values)
 
         return _pfaff.called_method(of, step)
-
-    def _warn_of(self, noted: list[tuple[str, str]], what: str) -> None:
-        if self.claims["order"] <= 0:
-            return
-        for place in dict.fromkeys(place for place, _ in noted):
-            texts = dict.fromkeys(text for at, text in noted if at == place)
-            many = len(texts) > 1
-            file, _, line = place.rpartition(":")
-            warnings.warn_explicit(
-                f"{what} claims an order and has the constant{'s' if many else ''} {', '.join(texts)}, which a float has rounded: in quad "
-                f"precision its order is lost. Expected {'exact ones' if many else 'an exact one'}, such as fractions.Fraction(1, 3)",
-                UserWarning, file or "<unknown>", int(line or 0), registry=_WARNED)
 
     def pickled(self) -> tuple:
         if _found(*self.reference) is not self:
@@ -179,6 +175,17 @@ class StepFunction:
                 "one at the top of a module"
             )
         return _step_function, self.reference
+
+
+def _warn_of(noted: list[tuple[str, str]], what: str) -> None:
+    for place in dict.fromkeys(place for place, _ in noted):
+        texts = dict.fromkeys(text for at, text in noted if at == place)
+        many = len(texts) > 1
+        file, _, line = place.rpartition(":")
+        warnings.warn_explicit(
+            f"{what} claims an order and has the constant{'s' if many else ''} {', '.join(texts)}, which a float has rounded: in quad "
+            f"precision its order is lost. Expected {'exact ones' if many else 'an exact one'}, such as fractions.Fraction(1, 3)",
+            UserWarning, file or "<unknown>", int(line or 0), registry=_WARNED)
 
 
 def _found(module: str, name: str) -> Any:

@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include <pfaff/integrators/support/continuation.hpp>
 #include <pfaff/python/src/objects.hpp>
 #include <pfaff/python/src/offered_formulas.hpp>
 #include <pfaff/python/src/scalars.hpp>
@@ -72,13 +73,15 @@ py::array Formulas<P>::operator()(const std::string& name, const py::object& tim
 // The method as the loop over steps sees it.
 struct CalledStep {
   SharedObject function;
+  std::string name;
 
   template <class P>
   struct Work {
     std::shared_ptr<Formulas<P>> formulas = std::make_shared<Formulas<P>>();
     SharedObject evaluate, memory, model;
+    Continuation<P> continuation;
 
-    Work(const CalledStep& /*method*/, const P& p) {
+    Work(const CalledStep& /*method*/, const P& p) : continuation(p) {
       formulas->problem = &p;
       const py::gil_scoped_acquire lock;
       evaluate =
@@ -95,7 +98,9 @@ struct CalledStep {
   template <class P>
   Status step(const P& /*p*/, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
+    const bool goes_on = w.continuation.holds(t, h, z);
     with_lock([&] {
+      if (!goes_on) w.memory.get().attr("clear")();
       try {
         const py::object made =
             function.get()(w.evaluate.get(), w.model.get(), t, h,
@@ -103,12 +108,19 @@ struct CalledStep {
         std::vector<T> next(z.size());
         write_numbers(made, std::span<T>(next), "state that a step returned");
         std::copy(next.begin(), next.end(), z.begin());
+      } catch (py::error_already_set& error) {
+        // Not an error of the function, which may be meant for floats alone: what asks for more goes without
+        // it.
+        if (const std::string words = error.what(); words.find(becomes_no_float) != std::string::npos)
+          throw RunError("method " + name + ": " + becomes_no_float);
+        throw;
       } catch (const InputError& error) {
         const py::object kind = py::module_::import("pfaff._errors").attr("InputError");
         PyErr_SetString(kind.ptr(), error.what());
         throw py::error_already_set();
       }
     });
+    w.continuation.remember(t + h, h, z);
     return Status::converged;
   }
 };
@@ -116,7 +128,8 @@ struct CalledStep {
 
 template <class T>
 StepperPointer<T> CalledMethod::made(std::shared_ptr<const Model> model) const {
-  return std::make_unique<detail::SteppingOn<CalledStep, Problem<T>>>(CalledStep{step_}, std::move(model));
+  return std::make_unique<detail::SteppingOn<CalledStep, Problem<T>>>(CalledStep{step_, descriptor_.name},
+                                                                      std::move(model));
 }
 
 template StepperPointer<double> CalledMethod::made(std::shared_ptr<const Model>) const;

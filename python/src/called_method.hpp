@@ -13,8 +13,8 @@
 namespace pfaff::python {
 
 /// `step` is called as step(evaluate, model, t, h, z, work) and gives the new state; evaluate(name, t, x)
-/// gives the numbers of a formula of the problem, and `work` is a dictionary that lives as long as the method
-/// remembers its past.
+/// gives the numbers of a formula of the problem, and `work` is a dictionary of the method's own, which is
+/// empty where a step does not begin where the last one, of the same size, ended.
 class CalledMethod final : public MakerOf<CalledMethod, MethodInstance> {
  public:
   CalledMethod(MethodDescriptor descriptor, Assignments parameters, FacetSet needs, SharedObject step)

@@ -91,7 +91,9 @@ constexpr const char* no_comparison =
     "pfaff.where(x, 1, -1)";
 constexpr const char* no_float =
     "a formula is recorded once and has no values meanwhile, so that it cannot become a float (math.sin and "
-    "others of the module math need one); expected numpy's functions, such as numpy.sin";
+    "others of the module math need one, and arrays of floats); expected numpy's functions, such as "
+    "numpy.sin, "
+    "and arrays made like the arguments, such as numpy.zeros_like(y)";
 constexpr const char* no_remainder =
     "remainders, whole parts and roundings of the numbers of a formula cannot be recorded; expected + - * / "
     "**, numpy's functions and pfaff.where";

@@ -84,15 +84,27 @@ void bind_scalar(py::module_& module, const char* name, const char* meaning) {
       c, "__rpow__", [](const T& x, const T& y) { return power(x, y); }, true);
   c.def("__pow__", &power_of<T>)
       .def("__neg__", [](const T& x) { return -x; })
+      .def("__pos__", [](const T& x) { return x; })
       .def("__abs__", [](const T& x) { return value_of(x) < Value<T>(0) ? -x : x; })
-      .def("__float__", [](const T& x) { return static_cast<double>(value_of(x)); })
+      .def("__float__", [](const T&) -> double { throw py::type_error(becomes_no_float); })
       .def("__repr__", [](const T& x) { return to_string(Quad(value_of(x)), 36); })
       .def("sqrt", [](const T& x) { return sqrt(x); })
       .def("exp", [](const T& x) { return exp(x); })
       .def("log", [](const T& x) { return log(x); })
       .def("sin", [](const T& x) { return sin(x); })
       .def("cos", [](const T& x) { return cos(x); })
+      .def("tan", [](const T& x) { return T(sin(x) / cos(x)); })
+      .def("arcsin", [](const T& x) { return asin(x); })
+      .def("arccos", [](const T& x) { return acos(x); })
+      .def("arctan", [](const T& x) { return atan(x); })
+      .def("sinh", [](const T& x) { return sinh(x); })
+      .def("cosh", [](const T& x) { return cosh(x); })
+      .def("tanh", [](const T& x) { return tanh(x); })
+      .def("erf", [](const T& x) { return erf(x); })
+      .def("fabs", [](const T& x) { return value_of(x) < Value<T>(0) ? -x : x; })
       .def("conjugate", [](const T& x) { return x; });
+  define(c, "arctan2", [](const T& y, const T& x) { return atan2(y, x); });
+  define(c, "hypot", [](const T& x, const T& y) { return sqrt(x * x + y * y); });
   c.attr("__hash__") = py::none();
 }
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <map>
+#include <numeric>
 #include <utility>
 
 #include <pfaff/core/facets/tile_rows.hpp>
@@ -46,17 +46,35 @@ class Keeper final : public Watcher<T> {
   Integration<T>& run_;
 };
 
-// Calls a function of Python.
+// Calls functions of Python: all of them at a state before any at the next one, so that none sees a state
+// behind the end of the integration.
 template <class T>
-class Caller final : public Watcher<T> {
+class Callers final : public Watcher<T> {
  public:
-  explicit Caller(SharedObject callback) : callback_(std::move(callback)) {}
+  void add(std::int64_t number, SharedObject callback, std::int64_t every) {
+    callers_.push_back(std::make_unique<Caller>(number, std::move(callback), every));
+  }
+  // It is not called from now on, whoever takes steps meanwhile.
+  void remove(std::int64_t number) {
+    for (auto& one : callers_)
+      if (one->number == number) one->removed = true;
+  }
+  // Only while nobody takes steps.
+  void drop_removed() {
+    std::erase_if(callers_, [](const auto& one) { return one->removed.load(); });
+  }
+  // Of the numbers of steps at which somebody is called; 0 where nobody is.
+  [[nodiscard]] std::int64_t every() const {
+    std::int64_t common = 0;
+    for (const auto& one : callers_) common = std::gcd(common, one->every);
+    return common;
+  }
+
   void start(const Integration<T>& /*run*/) override {}
-  // It is asked here, before others look, so that an integration ends at the state at which it gives True or
-  // raises something.
+  // They are asked here, before others look, so that an integration ends at the state at which one gives True
+  // or raises something.
   std::size_t end(const Integration<T>& /*run*/, const Block<T>& block) override {
     std::size_t row = 0;
-    if (removed_) return block.rows;
     try {
       with_lock([&] {
         std::vector<T> z(block.states.components());
@@ -65,10 +83,7 @@ class Caller final : public Watcher<T> {
           block.states.get(row, z);
           std::transform(z.begin(), z.end(), in_double.begin(),
                          [](const T& x) { return static_cast<double>(x); });
-          const py::object answer = callback_.get()(static_cast<double>(block.time(row)),
-                                                    array_of(std::span<const double>(in_double)));
-          if (is_true(answer)) return;
-          if (removed_) row = block.rows - 1;
+          if (call(block.step(row), static_cast<double>(block.time(row)), in_double)) return;
         }
       });
     } catch (const PythonError&) {
@@ -77,13 +92,25 @@ class Caller final : public Watcher<T> {
     return row;
   }
   void look(const Integration<T>& /*run*/, const Block<T>& /*block*/) override {}
-  // It is not called from now on, whoever takes steps meanwhile.
-  void remove() { removed_ = true; }
-  [[nodiscard]] bool removed() const { return removed_; }
 
  private:
-  SharedObject callback_;
-  std::atomic<bool> removed_{false};
+  struct Caller {
+    Caller(std::int64_t n, SharedObject called, std::int64_t steps)
+        : number(n), callback(std::move(called)), every(steps) {}
+    std::int64_t number;
+    SharedObject callback;
+    std::int64_t every;
+    std::atomic<bool> removed{false};
+  };
+  // True where the integration is to end at this state, which all of them see.
+  bool call(std::int64_t step, double t, const std::vector<double>& z) {
+    bool ends = false;
+    for (const auto& one : callers_)
+      if (!one->removed && step % one->every == 0)
+        ends = is_true(one->callback.get()(t, array_of(std::span<const double>(z)))) || ends;
+    return ends;
+  }
+  std::vector<std::unique_ptr<Caller>> callers_;
 };
 
 template <class T>
@@ -149,13 +176,12 @@ class SteppingIn final : public Stepping {
   }
   std::int64_t watch(SharedObject callback, std::int64_t every) override {
     const Using use(*this);
-    auto caller = std::make_unique<Caller<T>>(std::move(callback));
-    run_.watch(*caller, every);
-    callers_.emplace(++watched_, std::move(caller));
+    callers_.add(++watched_, std::move(callback), every);
+    watch_again();
     return watched_;
   }
   void unwatch(std::int64_t number) override {
-    if (const auto found = callers_.find(number); found != callers_.end()) found->second->remove();
+    callers_.remove(number);
     if (!in_use_) drop_removed();
   }
 
@@ -211,14 +237,13 @@ class SteppingIn final : public Stepping {
   };
 
   void drop_removed() {
-    for (auto one = callers_.begin(); one != callers_.end();) {
-      if (!one->second->removed()) {
-        ++one;
-        continue;
-      }
-      run_.unwatch(*one->second);
-      one = callers_.erase(one);
-    }
+    callers_.drop_removed();
+    if (callers_.every() != watched_every_) watch_again();
+  }
+  void watch_again() {
+    run_.unwatch(callers_);
+    watched_every_ = callers_.every();
+    if (watched_every_ > 0) run_.watch(callers_, watched_every_);
   }
 
   template <class Take>
@@ -250,8 +275,9 @@ class SteppingIn final : public Stepping {
   }
 
   Integration<T> run_;
-  std::map<std::int64_t, std::unique_ptr<Caller<T>>> callers_;  // by their numbers
-  std::int64_t watched_ = 0;                                    // the last of these
+  Callers<T> callers_;
+  std::int64_t watched_ = 0;        // the last of their numbers
+  std::int64_t watched_every_ = 0;  // so many steps they are asked; 0 where there are none
   StepsTaken last_;
   std::int64_t allowed_ = BudgetLimits::unlimited;
   bool in_use_ = false;  // under Python's lock

@@ -67,12 +67,13 @@ double allowance(const RoundOff& r, double steps) { return r.unit * (r.scale + s
 double steps_of(const RoundOff& r) { return double(std::max<std::int64_t>(r.steps, 1)); }
 double walk_of(const RoundOff& r) { return 8 * std::sqrt(steps_of(r)); }
 
-/// The number of different values of e where these are few and next to each other, as the roundings of an
-/// evaluation are; otherwise 0.
+/// The number of different values of e where these are few and next to each other and to zero, as the
+/// roundings of an evaluation are; otherwise 0.
 std::size_t levels_of_rounding(const Observed& observed) {
   const std::size_t n = observed.series.samples, count = observed.values.size();
   if (count > std::min<std::size_t>(n / 4, DriftAccumulator::most_values)) return 0;
   std::vector<double> levels = observed.values;
+  levels.push_back(0);  // which a residual need not be near, though it keeps its value
   std::sort(levels.begin(), levels.end());
   for (std::size_t k = 1; k < levels.size(); ++k)
     if (levels[k] - levels[k - 1] > 4 * observed.round_off.unit * observed.round_off.scale) return 0;
