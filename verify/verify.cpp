@@ -60,9 +60,9 @@ void validate(const VerificationSettings& settings) {
 // A claim that could be judged on no system is no sound one. Added for methods that were tried on every
 // system, whose descriptors `tried` gives, or null; the order counts as judged where one of its checks is. A
 // claim without any check is one in whose scope none of the systems is that the method takes.
-void add_claims_judged_nowhere(
-    std::vector<Check>& checks,
-    const std::function<const MethodDescriptor*(const std::string& method)>& tried, bool on_some = false) {
+void add_claims_judged_nowhere(std::vector<Check>& checks,
+                               const std::function<const MethodDescriptor*(const std::string& method)>& tried,
+                               bool on_some = false) {
   std::map<std::pair<std::string, std::string>, std::pair<int, Check>>
       claims;  // judged, and one that was not
   std::map<std::string, Check> methods;
@@ -101,7 +101,8 @@ void add_claims_judged_nowhere(
       missing.result = CheckResult::fail;
       missing.in_scope = true;
       missing.reason = "judged on no system; none that the method takes is in its scope";
-      checks.push_back(on_some ? not_judged(missing, "out of its scope, which is: " + missing.scope) : missing);
+      checks.push_back(on_some ? not_judged(missing, "out of its scope, which is: " + missing.scope)
+                               : missing);
     }
   }
 }

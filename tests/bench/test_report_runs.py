@@ -9,10 +9,12 @@ import xml.etree.ElementTree
 from synthetic import Balance, Fresh, ended, save
 
 import frames  # noqa: E402
+import matplotlib  # noqa: E402
 import plot  # noqa: E402
 import recording  # noqa: E402
 import run_figures  # noqa: E402
 import series  # noqa: E402
+import wanted  # noqa: E402
 
 
 def run_directory(folder, columns, rows, **summary):
@@ -161,7 +163,8 @@ class Pages(Fresh):
         self.assertIn("p1 against q1", (folder / "plot" / "plot.html").read_text())
         self.assertEqual({p.name for p in (folder / "plot" / "paper").iterdir()},
                          {f"{kind}.{end}" for kind in ("motion", "quantities") for end in ("pdf", "png", "txt")})
-        canvas = run_figures.drawings(recording.read_recording(folder), ("q1", "p1"))[0].draw(241)
+        with matplotlib.rc_context(wanted.style_of(None)):
+            canvas = run_figures.drawings(recording.read_recording(folder), ("q1", "p1"))[0].draw(241)
         self.assertEqual((canvas.width, canvas.font), (241, 7))
         for options, said in ((("--coordinates", "q1"), "expected two names with a comma between them, got 'q1'"),
                               (("--coordinates", "q1,P1"), "no coordinate 'P1'; did you mean 'p1'?"),
