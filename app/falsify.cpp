@@ -29,14 +29,19 @@ void add_falsify(CLI::App& app, Common& common, Action& action) {
   sub->add_option("--out", options->out, "Directory for the models of counterexamples, besides printing them")
       ->type_name("DIR")
       ->check(existing_directory());
-  sub->add_option("--system", options->system, "Judge the claim on this system, from its initial state")
-      ->type_name("SYSTEM|FILE");
-  sub->add_option("--step", options->step, "With --system: the step, 1/10 without")->type_name("h");
+  CLI::Option* system =
+      sub->add_option("--system", options->system, "Judge the claim on this system, from its initial state")
+          ->type_name("SYSTEM|FILE");
+  sub->add_option("--step", options->step, "With --system: the step, 1/10 without")
+      ->type_name("h")
+      ->needs(system);
   sub->add_option("--steps", options->steps, "With --system: how many steps in a row, 1 without")
       ->type_name("N")
-      ->check(positive_number());
+      ->check(positive_number())
+      ->needs(system);
   sub->add_option("--at", options->at, "With --system: the time at which the step begins, 0 without")
-      ->type_name("t");
+      ->type_name("t")
+      ->needs(system);
   sub->callback([=, &common, &action] {
     action = [=, &common] {
       options->set = parse_settings(*set);

@@ -201,6 +201,8 @@ def method(*, order: int, preserves: Sequence[str] = (), needs: Sequence[str] = 
     own = text("" if name is None else name, "name")
     how = (yes_or_no(traced, "traced"), yes_or_no(compiled, "compiled"))
     kept: Callable[[int], int] | int = memory if callable(memory) else whole(memory, "memory", 0)
+    if not traced and (compiled or kept):
+        raise InputError(f"{'compiled' if compiled else 'memory'}: expected none with traced=False" + ("" if compiled else ", whose step keeps things in an argument `work`"))
 
     def decorate(function: Callable) -> Method:
         named_function(function, "method", "a function of (problem, t, h, z)")

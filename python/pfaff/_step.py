@@ -144,7 +144,9 @@ class StepFunction:
                 problem = Problem(system, allowed, evaluate)
                 known = {"memory": array_of(numbers[n : n + kept])} if kept else {}
                 made = function(problem, t, numbers[-1], array_of(numbers[:n]), **known, **given)
-                parts = [made] if not kept else made if isinstance(made, tuple) and len(made) == 2 else [None]
+                if kept and not (isinstance(made, tuple) and len(made) == 2):
+                    raise InputError(f"{place}{what} has a memory; expected a tuple (state, memory), got {shown(made)}")
+                parts = made if kept else [made]
                 results = [flat(part, f"{place}{what}") for part in parts]
                 for one, expected in zip(results, (n, kept)):
                     if len(one) != expected:

@@ -106,7 +106,8 @@ struct CalledStep {
             function.get()(w.evaluate.get(), w.model.get(), t, h,
                            array_of(std::span<const T>(z.data(), z.size())), w.memory.get());
         std::vector<T> next(z.size());
-        write_numbers(made, std::span<T>(next), "state that a step returned");
+        write_numbers(made, std::span<T>(next),
+                      ("state that the step of method " + name + " returned").c_str());
         std::copy(next.begin(), next.end(), z.begin());
       } catch (py::error_already_set& error) {
         // Not an error of the function, which may be meant for floats alone: what asks for more goes without

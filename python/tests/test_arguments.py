@@ -227,7 +227,7 @@ def test_what_functions_and_dictionaries_give_is_refused_in_one_line(name):
 
 @pytest.mark.parametrize("call, words", [
     (lambda: stepped(lambda problem, t, h, z: z + problem.field("now", z), traced=False), "time of field: expected a number, got 'now'"),
-    (lambda: stepped(lambda problem, t, h, z: [*z[:3], None], traced=False), "state that a step returned: expected a number, got None"),
+    (lambda: stepped(lambda problem, t, h, z: [*z[:3], None], traced=False), "state that the step of method lambda returned: expected a number, got None"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, system_parameters=3), "system_parameters: expected a dictionary of names and values, got 3"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, out=5), "out: expected the path of a directory, got 5"),
     (lambda: pfaff.run(duffing, "verlet", step=0.1, time=1, initial=np.eye(3)), "got an array of shape (3, 3); pfaff.ensemble takes many initial states"),

@@ -125,3 +125,15 @@ def test_methods_go_with_what_they_hold(traced):
     del held
     gc.collect()
     assert left() is None
+
+
+def test_what_a_called_step_has_no_use_for_is_refused():
+    for argument, said in (({"memory": 5}, "argument `work`"), ({"compiled": True}, "compiled: expected none")):
+        with pytest.raises(pfaff.InputError, match=said):
+            euler(traced=False, **argument)
+    forgetful = pfaff.method(order=1, memory=2, name="forgetful")(lambda problem, t, h, z, memory: z)
+    with pytest.raises(pfaff.InputError, match=r"method forgetful has a memory; expected a tuple \(state, memory\)"):
+        pfaff.Integration("kepler", forgetful, step=0.1)
+    short = pfaff.method(order=1, traced=False, name="short")(lambda problem, t, h, z: z[:1])
+    with pytest.raises(pfaff.InputError, match="the step of method short returned: expected 4 numbers, got 1"):
+        pfaff.Integration("kepler", short, step=0.1).steps(1)

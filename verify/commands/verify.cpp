@@ -114,8 +114,9 @@ double nearness(const Check& c) {
 // "1.2e-15 of 1e-14 allowed", "4 of 4 claimed".
 std::string found_of(const Check& c) {
   if (std::isnan(c.measured)) return "not measured";
-  return c.claim == "order" ? scientific(c.measured) + " of " + scientific(c.expected) + " claimed"
-                            : scientific(c.measured) + " of " + scientific(c.tolerance) + " allowed";
+  return c.claim == "order"          ? scientific(c.measured) + " of " + scientific(c.expected) + " claimed"
+         : std::isfinite(c.measured) ? scientific(c.measured) + " of " + scientific(c.tolerance) + " allowed"
+                                     : "not finite, " + scientific(c.tolerance) + " allowed";
 }
 
 // A row for each claim, with its worst case; an order is allowed to be what is claimed, or more.
