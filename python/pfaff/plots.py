@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import inspect
 import pathlib
+import weakref
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -236,10 +237,21 @@ def _drawn(run: Run, function: Callable[..., Axes], keywords: dict[str, Any], *a
     optional = [name for name, one in inspect.signature(function).parameters.items() if one.kind is one.KEYWORD_ONLY]
     refuse_unknown(keywords, [name for name in optional if name not in own], "plot")
     earlier = list(curves_in(given_axes(keywords["axes"]))) if keywords.get("axes") is not None else []
+    unit = run.units.get("t", "")
+    if earlier and "time_unit" in own and _TIME_UNITS.get(keywords["axes"], unit) != unit:
+        raise InputError(f"axes: expected some without curves, or with times in {unit or '1'}, because those that are there are in {_TIME_UNITS[keywords['axes']] or '1'}")
     axes = function(*arguments, **own, **keywords)
+    if "time_unit" in own:
+        _TIME_UNITS[axes] = unit
     chosen = f"tolerance {run._asked['tolerance']}" if run._asked["tolerance"] else f"step {run._asked['step']}"
-    name_run(axes, earlier, [run.method.name, f"{run.method.name}, {chosen}"])
+    stepped = f"{run.method.name}, {chosen}"
+    values = [f"{key}={value}" for one in (run.method, run.system) for key, value in one._given.items()]
+    name_run(axes, earlier, [run.method.name, stepped, f"{stepped}, {run.system.name}", ", ".join([stepped, run.system.name, *values])])
     return axes
+
+
+# Of the runs in axes that have a curve over time.
+_TIME_UNITS: weakref.WeakKeyDictionary[Axes, str] = weakref.WeakKeyDictionary()
 
 
 def _animation_of(run: Run, **keywords: Any) -> FuncAnimation:

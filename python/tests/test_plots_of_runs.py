@@ -207,3 +207,25 @@ def test_misspelt_arguments_are_named(spherical, kepler, kind, keyword, words):
     with pytest.raises(pfaff.InputError, match=words) as refused:
         run.plot(kind, **{keyword: "x"})
     assert "\n" not in str(refused.value)
+
+
+def test_runs_that_differ_by_parameters_or_systems_are_told_apart():
+    axes = pfaff.run("pendulum", "verlet", step=0.1, time=5).plot("drift")
+    for omega in (1, 2):
+        pfaff.run("pendulum", "verlet", step=0.2, time=5, omega=omega).plot("drift", axes=axes)
+    pfaff.run("harmonic-oscillator", "verlet", step=0.2, time=5, omega=2).plot("drift", axes=axes)
+    entries = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert len(set(entries)) == 4, entries
+    assert any("pendulum, omega=2" in entry for entry in entries) and any("harmonic-oscillator, omega=2" in entry for entry in entries)
+
+
+def test_times_of_one_axis_have_one_unit():
+    @pfaff.system(coordinates=["q", "p"], initial=[1, 0], time_unit="h")
+    def slow(q, p):
+        return p**2 / 2 + q**2 / 2
+
+    axes = pfaff.run(slow, "verlet", step=0.1, time=5).plot("drift")
+    with pytest.raises(pfaff.InputError, match="those that are there are in h"):
+        pfaff.run("pendulum", "verlet", step=0.1, time=5).plot("drift", axes=axes)
+    pfaff.run(slow, "verlet", step=0.2, time=5).plot("drift", axes=axes)
+    pfaff.run("pendulum", "verlet", step=0.1, time=5).plot("phase portrait", axes=axes)  # has no axis of times
