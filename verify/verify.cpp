@@ -59,10 +59,11 @@ void validate(const VerificationSettings& settings) {
 
 // A claim that could be judged on no system is no sound one. Added for methods that were tried on every
 // system, whose descriptors `tried` gives, or null; the order counts as judged where one of its checks is. A
-// claim without any check is one in whose scope none of the systems is that the method takes.
+// claim without any check is one in whose scope none of the systems is that the method takes. Where methods
+// were tried on the systems `on` alone, such claims are said not to be judged.
 void add_claims_judged_nowhere(std::vector<Check>& checks,
                                const std::function<const MethodDescriptor*(const std::string& method)>& tried,
-                               bool on_some = false) {
+                               const std::vector<std::shared_ptr<const Model>>& on = {}) {
   std::map<std::pair<std::string, std::string>, std::pair<int, Check>>
       claims;  // judged, and one that was not
   std::map<std::string, Check> methods;
@@ -78,7 +79,7 @@ void add_claims_judged_nowhere(std::vector<Check>& checks,
   }
   for (auto& [key, found] : claims) {
     auto& [judged, check] = found;
-    if (on_some || judged > 0 || key.second.ends_with(" in a large step")) continue;
+    if (!on.empty() || judged > 0 || key.second.ends_with(" in a large step")) continue;
     check.claim = key.second;
     check.result = CheckResult::fail;
     check.in_scope = true;
@@ -93,6 +94,10 @@ void add_claims_judged_nowhere(std::vector<Check>& checks,
       };
       const bool as_symplectic = claim == Claim::k_symplectic && checked(Claim::symplectic);
       if (claim == Claim::none || as_symplectic || checked(claim)) continue;
+      // On constraints it may speak of the motion alone, which has been looked at.
+      if (std::any_of(on.begin(), on.end(),
+                      [&](const auto& model) { return model->restricted() || in_scope(claim, *model); }))
+        continue;
       Check missing = check;
       missing.claim = to_string(claim);
       missing.scope = claim_row(claim).scope;
@@ -101,8 +106,8 @@ void add_claims_judged_nowhere(std::vector<Check>& checks,
       missing.result = CheckResult::fail;
       missing.in_scope = true;
       missing.reason = "judged on no system; none that the method takes is in its scope";
-      checks.push_back(on_some ? not_judged(missing, "out of its scope, which is: " + missing.scope)
-                               : missing);
+      checks.push_back(on.empty() ? missing
+                                  : not_judged(missing, "out of its scope, which is: " + missing.scope));
     }
   }
 }
@@ -219,7 +224,7 @@ std::vector<Check> verify(const std::vector<MethodToVerify>& methods,
           if (one.method->descriptor().name == plugin) return &one.method->descriptor();
         return nullptr;
       },
-      !on.empty());
+      on);
   return checks;
 }
 

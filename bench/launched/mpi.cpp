@@ -72,6 +72,9 @@ class Ranks final : public Team {
       }
     }
     MPI_Finalize();
+    // Launchers kill all processes once one has ended with another status than 0. What is to be said of an
+    // error, in words and by the status, the leading process says, which must come to it.
+    if (!leads() && std::uncaught_exceptions() > 0) std::_Exit(EXIT_SUCCESS);
   }
 
   [[nodiscard]] bool leads() const override { return rank_ == 0; }

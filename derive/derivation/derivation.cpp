@@ -14,6 +14,7 @@
 #include <pfaff/derive/derivation/scaled.hpp>
 #include <pfaff/derive/derivation/symbolic_formulas.hpp>
 #include <pfaff/formulations/ideal_reactions.hpp>
+#include <pfaff/runs/support/constraints.hpp>
 
 namespace pfaff {
 
@@ -89,7 +90,13 @@ std::string misfit(const Model& model, const Row& row) {
   const std::string who = "method " + method + " needs ";
   if (row.method.way == DerivationWay::nonholonomic) {
     if (!model.nonholonomic()) return who + "velocity constraints; " + model.name() + " has none";
-    return formulations().get("nonholonomic", "formulation").refuses(model);
+    if (std::string refused = formulations().get("nonholonomic", "formulation").refuses(model);
+        !refused.empty())
+      return refused;
+    std::vector<Quad> z;
+    for (const Real& x : model.initial()) z.push_back(x.quad());
+    const std::string reason = dependent_velocity_constraints(model, Quad(0), z);
+    return reason.empty() ? "" : "initial state of " + model.name() + ": " + reason;
   }
   if (row.method.way == DerivationWay::birkhoffian) {
     const bool structured = model.facets().has(Facet::structure) || model.facets().has(Facet::hamiltonian);

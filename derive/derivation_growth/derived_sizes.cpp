@@ -119,7 +119,7 @@ std::string derivation_table(const DerivationStudy& study, const std::vector<Der
     text << formatted("%-18s %5s %11s %9s  %-17s %-17s %s\n", method, rods, operations, seconds, a, b, c);
   };
   text << "\nall equations of " << study.system << " with K constraints, and how they grow with K\n";
-  put("method", "K", "operations", "seconds", "operations", "seconds", "without sharing");
+  put("method", "K", "operations", "seconds", "operations grow", "seconds grow", "without sharing");
   for (const DerivationSweep& sweep : study.sweeps) {
     const Derived* last = nullptr;
     for (const Derived& d : all)

@@ -183,7 +183,8 @@ def method(*, order: int, preserves: Sequence[str] = (), needs: Sequence[str] = 
         name: that of the method; without it that of the function, in kebab-case.
         title, reference: what reports show.
         traced: False calls the function at every step instead, with floats, or in other scalars with arrays of
-            objects; it may then branch on values, and an argument `work` is a dictionary that it keeps things in.
+            objects; it may then branch on values, and an argument `work` is a dictionary that it keeps things in. A step that
+            does not converge raises pfaff.NotConverged.
         compiled: compile what was recorded by the system's C++ compiler, in double precision.
         memory: how many numbers a traced step keeps for the next one, a number or a function of the dimension. The
             function then has an argument `memory`, zeros at first and where a step does not begin where the last one, of

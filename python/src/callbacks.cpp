@@ -8,7 +8,8 @@ namespace pfaff::python {
 
 namespace {
 thread_local SavedError* saved_here = nullptr;
-}
+std::atomic<SavedError*> saved_elsewhere{nullptr};
+}  // namespace
 
 SavedError::~SavedError() {
   if (value_ == nullptr) return;
@@ -18,6 +19,14 @@ SavedError::~SavedError() {
 
 SavedError::Scope::Scope(SavedError& saved) : before_(saved_here) { saved_here = &saved; }
 SavedError::Scope::~Scope() { saved_here = before_; }
+
+SavedError::OfOtherThreads::OfOtherThreads(SavedError& saved) {
+  SavedError* none = nullptr;
+  first_ = saved_elsewhere.compare_exchange_strong(none, &saved);
+}
+SavedError::OfOtherThreads::~OfOtherThreads() {
+  if (first_) saved_elsewhere = nullptr;
+}
 
 py::object SavedError::taken() {
   const std::lock_guard lock(mutex_);
@@ -41,7 +50,8 @@ void SavedError::save(py::error_already_set& error) {
 
 void pass_on(py::error_already_set& error) {
   const std::string words = error.what();
-  if (saved_here != nullptr) saved_here->save(error);
+  if (SavedError* const saved = saved_here != nullptr ? saved_here : saved_elsewhere.load())
+    saved->save(error);
   throw PythonError(words.substr(0, words.find('\n')));
 }
 

@@ -40,6 +40,19 @@ class SavedError {
     SavedError* before_;
   };
 
+  /// While it lives, callbacks on threads that save nowhere else save here: those that the work starts. Of
+  /// several at a time the first one counts.
+  class OfOtherThreads {
+   public:
+    explicit OfOtherThreads(SavedError& saved);
+    ~OfOtherThreads();
+    OfOtherThreads(const OfOtherThreads&) = delete;
+    OfOtherThreads& operator=(const OfOtherThreads&) = delete;
+
+   private:
+    bool first_;
+  };
+
   [[nodiscard]] bool holds() const { return holds_.load(); }
   /// The exception, which is then no longer held. With Python's lock.
   [[nodiscard]] pybind11::object taken();

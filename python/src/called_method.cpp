@@ -99,6 +99,7 @@ struct CalledStep {
   Status step(const P& /*p*/, const Scalar<P>& t, const Scalar<P>& h, State<P>& z, Work<P>& w) const {
     using T = Scalar<P>;
     const bool goes_on = w.continuation.holds(t, h, z);
+    Status status = Status::converged;
     with_lock([&] {
       if (!goes_on) w.memory.get().attr("clear")();
       try {
@@ -110,6 +111,10 @@ struct CalledStep {
                       ("state that the step of method " + name + " returned").c_str());
         std::copy(next.begin(), next.end(), z.begin());
       } catch (py::error_already_set& error) {
+        if (error.matches(py::module_::import("pfaff._errors").attr("NotConverged"))) {
+          status = Status::not_converged;
+          return;
+        }
         // Not an error of the function, which may be meant for floats alone: what asks for more goes without
         // it.
         if (const std::string words = error.what(); words.find(becomes_no_float) != std::string::npos)
@@ -121,8 +126,11 @@ struct CalledStep {
         throw py::error_already_set();
       }
     });
-    w.continuation.remember(t + h, h, z);
-    return Status::converged;
+    if (status == Status::converged)
+      w.continuation.remember(t + h, h, z);
+    else
+      w.continuation.forget();
+    return status;
   }
 };
 }  // namespace

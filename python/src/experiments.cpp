@@ -45,16 +45,18 @@ py::dict compared(const std::string& name, const std::string& asked_for, const N
   add_methods(experiment, methods);
   ExperimentOutcome outcome;
   nlohmann::json verdicts = nlohmann::json::array();
-  without_lock([&] {
-    const std::atomic<bool>* const stop = Budget::current()->stop();
-    outcome =
-        run_experiment(experiment, directory, [](const ExperimentStage&) {},
-                       {.force = force, .stop = stop, .team = nullptr, .report = report, .timing = timing});
-    if (outcome.interrupted)
-      throw RunError(std::to_string(outcome.resumed) + " of " + std::to_string(outcome.runs) +
-                     " runs are in " + directory + "; the same call resumes");
-    if (!outcome.report.empty()) verdicts = verdicts_of(directory);
-  });
+  without_lock(
+      [&] {
+        const std::atomic<bool>* const stop = Budget::current()->stop();
+        outcome = run_experiment(
+            experiment, directory, [](const ExperimentStage&) {},
+            {.force = force, .stop = stop, .team = nullptr, .report = report, .timing = timing});
+        if (outcome.interrupted)
+          throw RunError(std::to_string(outcome.resumed) + " of " + std::to_string(outcome.runs) +
+                         " runs are in " + directory + "; the same call resumes");
+        if (!outcome.report.empty()) verdicts = verdicts_of(directory);
+      },
+      true);  // runs are made on several threads
   py::dict result;
   result["name"] = experiment.name;
   result["title"] = experiment.title;

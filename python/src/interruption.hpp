@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <csignal>
+#include <optional>
 #include <type_traits>
 
 #include <pfaff/core/errors/budget.hpp>
@@ -43,11 +44,13 @@ void raise_saved(SavedError& saved);
 
 /// work() without Python's lock. Whatever spends from the budget of its thread ends with BudgetSpent once
 /// Ctrl-C has come, which, and what the library makes of it, becomes Interrupted. What a callback has raised
-/// is raised in place of whatever the library makes of it.
+/// is raised in place of whatever the library makes of it; with `threads`, on those that the work starts too.
 template <class Work>
-auto without_lock(Work&& work) {
+auto without_lock(Work&& work, bool threads = false) {
   const Interruption interruption;
   SavedError saved;
+  std::optional<SavedError::OfOtherThreads> others;
+  if (threads) others.emplace(saved);
   try {
     const auto worked = [&] {
       const SavedError::Scope scope(saved);

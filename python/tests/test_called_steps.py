@@ -137,3 +137,31 @@ def test_what_a_called_step_has_no_use_for_is_refused():
     short = pfaff.method(order=1, traced=False, name="short")(lambda problem, t, h, z: z[:1])
     with pytest.raises(pfaff.InputError, match="the step of method short returned: expected 4 numbers, got 1"):
         pfaff.Integration("kepler", short, step=0.1).steps(1)
+
+
+def test_what_a_step_raises_passes_through_an_experiment():
+    @pfaff.method(order=1, traced=False, name="raising")
+    def raising(problem, t, h, z):
+        raise KeyError("boom")
+
+    with pytest.raises(KeyError, match="boom"):
+        pfaff.compare(FIRST, methods=[raising], timing=0.001)
+
+
+def test_a_step_that_does_not_converge_is_one_like_any_other():
+    @pfaff.method(order=1, traced=False, name="giving-up")
+    def giving_up(problem, t, h, z):
+        if t > 0.45:
+            raise pfaff.NotConverged("no")
+        return z + h * problem.field(t, z)
+
+    with pytest.raises(pfaff.NotConverged) as ended:
+        pfaff.run("pendulum", giving_up, step=0.1, time=2, structure=False)
+    assert np.allclose(ended.value.run.t, np.arange(6) / 10)
+    with pytest.raises(pfaff.NotConverged) as ended:
+        pfaff.Integration("pendulum", giving_up, step=0.1).steps(20, every=1)
+    assert np.allclose(ended.value.run.t, np.arange(1, 6) / 10)
+    compared = pfaff.compare(FIRST, methods=[giving_up], timing=0.001)
+    assert (compared.runs, compared.failed) == (2, 1)
+    several = pfaff.ensemble("pendulum", giving_up, [[1, 0], [2, 0]], step=0.1, steps=10)
+    assert len(several.failures) == 2

@@ -79,6 +79,16 @@ TEST(Falsify, SystemsThatAreThemselvesWrongAreRefused) {
           "energy", "verlet needs separable");
 }
 
+// Where no step can be taken nothing was measured.
+TEST(Falsify, WhatCannotBeJudgedIsNotOk) {
+  const Outcome outcome =
+      run_pfaff({"falsify", "gauss", "--claim", "symplectic", "--system", "henon-heiles", "--step", "1e9"});
+  EXPECT_EQ(outcome.status, 1);
+  EXPECT_NE(outcome.out.find("NOT OK: not judged: the step did not converge"), std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(outcome.out.find("in double"), std::string::npos) << outcome.out;
+}
+
 TEST(Falsify, Text) {
   const Outcome outcome = run_pfaff({"falsify", "verlet", "--systems", "5"});
   EXPECT_EQ(outcome.status, 0);

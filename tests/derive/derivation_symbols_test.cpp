@@ -169,4 +169,23 @@ TEST(GeneratingCoefficients, RefuseWhatHasNone) {
   EXPECT_THAT(message("humanoid", 2), HasSubstr("needs a Hamiltonian in Darboux coordinates"));
 }
 
+// A velocity constraint that repeats another one leaves nothing to be derived, and is named.
+TEST(NamedParameters, DependentVelocityConstraintsAreRefused) {
+  const TemporaryDirectory directory;
+  const std::string path = directory / "twice.toml";
+  std::ofstream(path) << R"toml(name = "twice"
+reference = "none"
+coordinates = ["x", "y", "u", "v"]
+initial = [1, 2, 3, 4]
+hamiltonian = "u^2/2 + v^2/2"
+velocity_constraints = [{ name = "a", row = ["1", "x"] }, { name = "b", row = ["2", "2*x"] }]
+)toml";
+  try {
+    (void)derived_with_names(system_named(path), {}, "nonholonomic");
+    FAIL() << "it was derived";
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("constraint b"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace

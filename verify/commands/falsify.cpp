@@ -1,5 +1,6 @@
 // The command falsify: searches for the smallest system on which a claim of a method fails, or judges a claim
 // on a system by name.
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -192,26 +193,29 @@ int show(const FalsificationOptions& options, const Common& common) {
                        " does not hold (see pfaff verify " + options.system + ")");
   const Budget budget(judged_by_long_runs(claim) ? limits_of_long_runs : limits_of_check);
   const Judgement judgement = judge(*method, claim, at);
+  const bool judged = !std::isnan(judgement.residuals.front()), ok = judged && !judgement.falsified;
   if (common.json) {
     std::cout << json_text({{"schema", 1},
-                            {"ok", !judgement.falsified},
+                            {"ok", ok},
                             {"residuals", judgement.residuals},
                             {"residual_in_double", judgement.in_double},
                             {"exponent", judgement.exponent},
                             {"reason", judgement.reason}});
-    return judgement.falsified ? 1 : 0;
+    return ok ? 0 : 1;
   }
-  if (common.quiet) return judgement.falsified ? 1 : 0;
+  if (common.quiet) return ok ? 0 : 1;
   std::cout << paragraph(std::string(claim_row(claim).meaning));
   for (std::size_t k = 0; k < judgement.residuals.size() && !judged_by_long_runs(claim); ++k)
     std::cout << "residual of " << options.steps << (options.steps == 1 ? " step, h" : " steps, h")
               << (k == 0 ? "" : "/" + std::to_string(1U << k)) << ": " << scientific(judgement.residuals[k])
               << '\n';
-  std::cout << "residual in double: " << scientific(judgement.in_double) << '\n'
-            << (judgement.falsified ? "FALSIFIED: above " + scientific(falsifying_residual(*method, claim))
-                                    : "not falsified: " + judgement.reason)
+  if (!std::isnan(judgement.in_double))
+    std::cout << "residual in double: " << scientific(judgement.in_double) << '\n';
+  std::cout << (judgement.falsified
+                    ? "FALSIFIED: above " + scientific(falsifying_residual(*method, claim))
+                    : (judged ? "not falsified: " : "NOT OK: not judged: ") + judgement.reason)
             << '\n';
-  return judgement.falsified ? 1 : 0;
+  return ok ? 0 : 1;
 }
 
 }  // namespace

@@ -105,7 +105,7 @@ Judgement judged(const MethodInstance& method, Claim claim, const JudgedStep& at
   judgement.residuals = {measure(at.step)};
   const double residual = judgement.residuals.front();
   if (std::isnan(residual)) {
-    judgement.reason = "the step did not converge";
+    judgement.reason = "the step did not converge, or not to finite numbers";
     return judgement;
   }
   judgement.in_double = doubles ? residual : residual_of<double>(method, claim, at, past, at.step);

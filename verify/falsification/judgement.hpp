@@ -1,6 +1,7 @@
 // Whether a claim of a method fails on one system, and whether the failure is more than rounding.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,9 +29,10 @@ struct JudgedStep {
 struct Judgement {
   bool falsified = false;
   std::vector<double> residuals;  // with steps h, h/2, ... in the precision judged; not-a-number: no step
-  double in_double = 0;           // with step h
-  double exponent = 0;            // of the power of h, from the last two residuals
-  std::string reason;             // why the claim is not falsified
+  double in_double =
+      std::numeric_limits<double>::quiet_NaN();  // with step h; not measured where no step was taken
+  double exponent = 0;                           // of the power of h, from the last two residuals
+  std::string reason;                            // why the claim is not falsified
 };
 
 /// The residual above which a claim is false, relative to the sizes of its terms: 1e-20, measured in quad, or
