@@ -75,7 +75,7 @@ def style_of(path):
     logger.addHandler(heard)
     logger.propagate = False
     try:
-        read = [matplotlib.rc_params_from_file(file, use_default_template=False) for file in (STYLE, path) if file]
+        own, given = (matplotlib.rc_params_from_file(file, use_default_template=False) for file in (STYLE, path or STYLE))
     except UnicodeDecodeError:
         raise InputError(f"--style {path}: expected text in UTF-8") from None
     finally:
@@ -86,7 +86,7 @@ def style_of(path):
         near = difflib.get_close_matches(key[1], matplotlib.rcParams, 1) if key else []
         raise InputError(f"--style {path}: " + (f"matplotlib has no key '{key[1]}'" if key else " ".join(complaints[0].split()))
                          + (f"; did you mean '{near[0]}'?" if near else ""))
-    return {key: value for one in read for key, value in one.items()}
+    return dict(own) | dict(given)
 
 
 def work(arguments):

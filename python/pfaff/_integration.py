@@ -2,7 +2,6 @@
 from __future__ import annotations
 
 import decimal
-import itertools
 import weakref
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
@@ -37,21 +36,7 @@ class Outcome:
 
 
 class _Callbacks(dict):
-    """The callbacks of an integration, by numbers. One may hold the integration, and what the extension holds is not seen by Python's
-    collector: the extension has functions that find the callbacks here for as long as the integration lives."""
-
-    def caller(self, callback: Callable[[float, np.ndarray], Any]) -> tuple[int, Callable[[float, np.ndarray], Any]]:
-        key, here = next(self.numbers), weakref.ref(self)
-        self[key] = callback
-
-        def called(t: float, z: np.ndarray) -> Any:
-            callbacks = here()
-            found = None if callbacks is None else callbacks.get(key)
-            return None if found is None else found(t, z)
-
-        return key, called
-
-    numbers = itertools.count()
+    """The callbacks of an integration by their numbers, a dictionary that can be referred to weakly."""
 
 
 class Watching:
@@ -66,8 +51,8 @@ class Watching:
     [0.05, 0.1]
     """
 
-    def __init__(self, of: Integration, number: int, key: int) -> None:
-        self._of, self._number, self._key = of, number, key
+    def __init__(self, of: Integration, number: int) -> None:
+        self._of, self._number = of, number
 
     def remove(self) -> None:
         """The callback is not called from now on; nothing happens where it was removed before.
@@ -75,7 +60,7 @@ class Watching:
         It may be removed by itself, by another callback and by another thread while steps are taken.
         """
         self._of._it.unwatch(self._number)
-        self._of._callbacks.pop(self._key, None)
+        self._of._callbacks.pop(self._number, None)
 
     def __repr__(self) -> str:
         return f"<callback of {self._of}>"
@@ -214,12 +199,20 @@ class Integration:
 
         z is a copy, shape (dimension,). The integration ends at the state at which the callback gives True; what it raises ends
         it there too, and reaches who asked for the steps. Of several callbacks each is called with a state before any is with
-        the next one. Callbacks cannot step the integration, whose own time
-        and state may be ahead of t and z by then: steps are taken many at a time.
+        the next one. Callbacks cannot step the integration, whose own time and state may be ahead of t and z by then: steps are
+        taken many at a time.
         """
-        times = whole(every, "every", 1)
-        key, called = self._callbacks.caller(function(callback, "callback", "a function of (t, z)"))
-        return Watching(self, self._it.watch(called, times), key)
+        wanted, times, kept = function(callback, "callback", "a function of (t, z)"), whole(every, "every", 1), weakref.ref(self._callbacks)
+
+        # The callback may hold this integration, and Python's collector does not see what the extension holds: that has a function
+        # which finds the callback for as long as the integration lives.
+        def called(t: float, z: np.ndarray) -> Any:
+            found = (kept() or _Callbacks()).get(number)
+            return None if found is None else found(t, z)
+
+        number = self._it.watch(called, times)
+        self._callbacks[number] = wanted
+        return Watching(self, number)
 
     def beside(self, state: Any) -> Integration:
         """The same method from another state, at the time reached and with the same step. It remembers nothing."""

@@ -111,14 +111,15 @@ struct CalledStep {
                       ("state that the step of method " + name + " returned").c_str());
         std::copy(next.begin(), next.end(), z.begin());
       } catch (py::error_already_set& error) {
-        if (error.matches(py::module_::import("pfaff._errors").attr("NotConverged"))) {
+        const py::module_ errors = py::module_::import("pfaff._errors");
+        if (error.matches(errors.attr("NotConverged"))) {
           status = Status::not_converged;
           return;
         }
         // Not an error of the function, which may be meant for floats alone: what asks for more goes without
         // it.
-        if (const std::string words = error.what(); words.find(becomes_no_float) != std::string::npos)
-          throw RunError("method " + name + ": " + becomes_no_float);
+        if (error.matches(errors.attr("TraceError")))
+          throw RunError("method " + name + ": " + py::str(error.value()).cast<std::string>());
         throw;
       } catch (const InputError& error) {
         const py::object kind = py::module_::import("pfaff._errors").attr("InputError");

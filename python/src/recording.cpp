@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include <pfaff/python/src/bindings.hpp>
+#include <pfaff/python/src/number_functions.hpp>
 #include <pfaff/python/src/objects.hpp>
 
 namespace py = pybind11;
@@ -92,47 +93,19 @@ constexpr const char* no_comparison =
 constexpr const char* no_float =
     "a formula is recorded once and has no values meanwhile, so that it cannot become a float (math.sin and "
     "others of the module math need one, and arrays of floats); expected numpy's functions, such as "
-    "numpy.sin, "
-    "and arrays made like the arguments, such as numpy.zeros_like(y)";
+    "numpy.sin, and arrays made like the arguments, such as numpy.zeros_like(y)";
 constexpr const char* no_remainder =
     "remainders, whole parts and roundings of the numbers of a formula cannot be recorded; expected + - * / "
     "**, numpy's functions and pfaff.where";
 
 void bind_operators(py::class_<Number>& c) {
+  bind_number_functions<Recorded>(
+      c, [](auto function) { return unary(function); },
+      [](auto operation, bool reversed) { return binary(operation, reversed); });
   const auto power = [](const Recorded& x, const Recorded& y) { return pow(x, y); };
-  c.def("__add__", binary([](const Recorded& x, const Recorded& y) { return x + y; }))
-      .def("__radd__", binary([](const Recorded& x, const Recorded& y) { return x + y; }, true))
-      .def("__sub__", binary([](const Recorded& x, const Recorded& y) { return x - y; }))
-      .def("__rsub__", binary([](const Recorded& x, const Recorded& y) { return x - y; }, true))
-      .def("__mul__", binary([](const Recorded& x, const Recorded& y) { return x * y; }))
-      .def("__rmul__", binary([](const Recorded& x, const Recorded& y) { return x * y; }, true))
-      .def("__truediv__", binary([](const Recorded& x, const Recorded& y) { return x / y; }))
-      .def("__rtruediv__", binary([](const Recorded& x, const Recorded& y) { return x / y; }, true))
-      .def("__pow__", binary(power))
+  c.def("__pow__", binary(power))
       .def("__rpow__", binary(power, true))
-      .def("__neg__", unary([](const Recorded& x) { return -x; }))
-      .def("__pos__", unary([](const Recorded& x) { return x; }))
       .def("__abs__", unary([](const Recorded& x) { return abs(x); }));
-}
-
-void bind_functions(py::class_<Number>& c) {
-  using R = const Recorded&;
-  c.def("sqrt", unary([](R x) { return sqrt(x); }))
-      .def("exp", unary([](R x) { return exp(x); }))
-      .def("log", unary([](R x) { return log(x); }))
-      .def("sin", unary([](R x) { return sin(x); }))
-      .def("cos", unary([](R x) { return cos(x); }))
-      .def("tan", unary([](R x) { return sin(x) / cos(x); }))
-      .def("arcsin", unary([](R x) { return asin(x); }))
-      .def("arccos", unary([](R x) { return acos(x); }))
-      .def("arctan", unary([](R x) { return atan(x); }))
-      .def("sinh", unary([](R x) { return sinh(x); }))
-      .def("cosh", unary([](R x) { return cosh(x); }))
-      .def("tanh", unary([](R x) { return tanh(x); }))
-      .def("erf", unary([](R x) { return erf(x); }))
-      .def("conjugate", unary([](R x) { return x; }))
-      .def("arctan2", binary([](R y, R x) { return atan2(y, x); }))
-      .def("hypot", binary([](R x, R y) { return sqrt(x * x + y * y); }));
 }
 
 // Constants, such as parameters, have values, which can be compared.
@@ -234,7 +207,6 @@ std::shared_ptr<Recording> recording_of(const Number& a, const Number& b) {
 void bind_recording(py::module_& module) {
   py::class_<Number> number_class(module, "Number", "A number of a formula that is being recorded.");
   bind_operators(number_class);
-  bind_functions(number_class);
   bind_values(number_class);
   number_class.def("__repr__", [](const Number& x) {
     return x.value.is_constant() ? to_string(x.value.constant()) : std::string("<a number that is recorded>");

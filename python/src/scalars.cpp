@@ -6,8 +6,9 @@
 
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/numbers/formula_scalar.hpp>
-#include <pfaff/core/numbers/special.hpp>
 #include <pfaff/python/src/bindings.hpp>
+#include <pfaff/python/src/number_functions.hpp>
+#include <pfaff/python/src/recording.hpp>
 
 namespace py = pybind11;
 
@@ -22,6 +23,14 @@ std::optional<Real> real_from(py::handle object) {
   if (PyFloat_Check(object.ptr()) != 0) return Real(Quad(PyFloat_AS_DOUBLE(object.ptr())));  // inf and nan
   return std::nullopt;
 }
+// What is said where a step makes a float of a number of more than 53 bits or with derivatives. A float would
+// have none of them, and nobody would see it.
+constexpr const char* no_float_of_step =
+    "a number of the step has derivatives here, or the digits of quad, and cannot become a float (math.sin "
+    "and others of the "
+    "module math need one, and arrays of floats); expected numpy's functions, such as numpy.sin, and arrays "
+    "like the state, "
+    "such as numpy.zeros_like(z)";
 // What messages show of an object.
 std::string shown(py::handle object) {
   return py::module_::import("pfaff._arguments").attr("shown")(object).cast<std::string>();
@@ -33,13 +42,14 @@ std::optional<T> known_scalar(py::handle object) {
   return std::nullopt;
 }
 
+// An operation on two numbers; NotImplemented where the other one is no number.
 template <class T, class Operation>
-void define(py::class_<T>& c, const char* name, Operation operation, bool reversed = false) {
-  c.def(name, [operation, reversed](const T& a, const py::object& other) -> py::object {
+auto binary(Operation operation, bool reversed = false) {
+  return [operation, reversed](const T& a, const py::object& other) -> py::object {
     const std::optional<T> b = known_scalar<T>(other);
     if (!b) return py::reinterpret_borrow<py::object>(Py_NotImplemented);
     return py::cast(reversed ? operation(*b, a) : operation(a, *b));
-  });
+  };
 }
 
 template <class T>
@@ -63,48 +73,21 @@ py::object power_of(const T& x, const py::object& exponent) {
 template <class T>
 void bind_scalar(py::module_& module, const char* name, const char* meaning) {
   py::class_<T> c(module, name, meaning);
-  define(c, "__add__", [](const T& x, const T& y) { return x + y; });
-  define(
-      c, "__radd__", [](const T& x, const T& y) { return x + y; }, true);
-  define(c, "__sub__", [](const T& x, const T& y) { return x - y; });
-  define(
-      c, "__rsub__", [](const T& x, const T& y) { return x - y; }, true);
-  define(c, "__mul__", [](const T& x, const T& y) { return x * y; });
-  define(
-      c, "__rmul__", [](const T& x, const T& y) { return x * y; }, true);
-  define(c, "__truediv__", [](const T& x, const T& y) { return x / y; });
-  define(
-      c, "__rtruediv__", [](const T& x, const T& y) { return x / y; }, true);
-  define(c, "__lt__", [](const T& x, const T& y) { return value_of(x) < value_of(y); });
-  define(c, "__le__", [](const T& x, const T& y) { return value_of(x) <= value_of(y); });
-  define(c, "__gt__", [](const T& x, const T& y) { return value_of(x) > value_of(y); });
-  define(c, "__ge__", [](const T& x, const T& y) { return value_of(x) >= value_of(y); });
-  define(c, "__eq__", [](const T& x, const T& y) { return value_of(x) == value_of(y); });
-  define(
-      c, "__rpow__", [](const T& x, const T& y) { return power(x, y); }, true);
-  c.def("__pow__", &power_of<T>)
-      .def("__neg__", [](const T& x) { return -x; })
-      .def("__pos__", [](const T& x) { return x; })
-      .def("__abs__", [](const T& x) { return value_of(x) < Value<T>(0) ? -x : x; })
-      .def("__float__", [](const T&) -> double { throw py::type_error(becomes_no_float); })
-      .def("__repr__", [](const T& x) { return to_string(Quad(value_of(x)), 36); })
-      .def("sqrt", [](const T& x) { return sqrt(x); })
-      .def("exp", [](const T& x) { return exp(x); })
-      .def("log", [](const T& x) { return log(x); })
-      .def("sin", [](const T& x) { return sin(x); })
-      .def("cos", [](const T& x) { return cos(x); })
-      .def("tan", [](const T& x) { return T(sin(x) / cos(x)); })
-      .def("arcsin", [](const T& x) { return asin(x); })
-      .def("arccos", [](const T& x) { return acos(x); })
-      .def("arctan", [](const T& x) { return atan(x); })
-      .def("sinh", [](const T& x) { return sinh(x); })
-      .def("cosh", [](const T& x) { return cosh(x); })
-      .def("tanh", [](const T& x) { return tanh(x); })
-      .def("erf", [](const T& x) { return erf(x); })
-      .def("fabs", [](const T& x) { return value_of(x) < Value<T>(0) ? -x : x; })
-      .def("conjugate", [](const T& x) { return x; });
-  define(c, "arctan2", [](const T& y, const T& x) { return atan2(y, x); });
-  define(c, "hypot", [](const T& x, const T& y) { return sqrt(x * x + y * y); });
+  bind_number_functions<T>(
+      c, [](auto function) { return function; },
+      [](auto operation, bool reversed) { return binary<T>(operation, reversed); });
+  const auto size = [](const T& x) { return value_of(x) < Value<T>(0) ? T(-x) : x; };
+  c.def("__lt__", binary<T>([](const T& x, const T& y) { return value_of(x) < value_of(y); }))
+      .def("__le__", binary<T>([](const T& x, const T& y) { return value_of(x) <= value_of(y); }))
+      .def("__gt__", binary<T>([](const T& x, const T& y) { return value_of(x) > value_of(y); }))
+      .def("__ge__", binary<T>([](const T& x, const T& y) { return value_of(x) >= value_of(y); }))
+      .def("__eq__", binary<T>([](const T& x, const T& y) { return value_of(x) == value_of(y); }))
+      .def("__rpow__", binary<T>([](const T& x, const T& y) { return power(x, y); }, true))
+      .def("__pow__", &power_of<T>)
+      .def("__abs__", size)
+      .def("fabs", size)
+      .def("__float__", [](const T&) -> double { refuse_traced(no_float_of_step); })
+      .def("__repr__", [](const T& x) { return to_string(Quad(value_of(x)), 36); });
   c.attr("__hash__") = py::none();
 }
 }  // namespace

@@ -12,15 +12,6 @@
 
 namespace pfaff::python {
 
-/// What is said where a step makes a float of a number of more than 53 bits or with derivatives. A float
-/// would have none of them, and nobody would see it.
-inline constexpr const char* becomes_no_float =
-    "a number of the step has derivatives here, or the digits of quad, and cannot become a float (math.sin "
-    "and others of the "
-    "module math need one, and arrays of floats); expected numpy's functions, such as numpy.sin, and arrays "
-    "like the state, such "
-    "as numpy.zeros_like(z)";
-
 /// An array of doubles, or of objects for other scalars.
 template <class T>
 pybind11::array array_of(std::span<const T> numbers) {
