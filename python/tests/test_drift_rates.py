@@ -101,7 +101,7 @@ def test_energies_that_drift_are_seldom_called_bounded():
 
 def test_an_exchange_within_the_motion_is_no_trend():
     # In the chain of Fermi, Pasta, Ulam and Tsingou energy goes from the first mode to others and comes back after some 2,000
-    # units of time. The error follows, and is the same from one exchange to the next. Without what the rules ask of curves 22 of
+    # units of time. The error follows, and is the same from one exchange to the next. Without what the rules ask of curves 15 of
     # these 24 runs are `polynomial` or `exponential`.
     found = Counter()
     for method, parameters in (("verlet", {}), ("yoshida", {}), ("gauss", {})):
