@@ -1,6 +1,7 @@
 #include <pfaff/runs/measure.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 
 #include <pfaff/core/errors/budget.hpp>
@@ -18,6 +19,16 @@ std::vector<std::int64_t> evenly(std::int64_t steps, int count) {
   std::vector<std::int64_t> numbers{0};
   for (int k = 1; k <= count; ++k)
     if (const std::int64_t step = steps * k / count; step > numbers.back()) numbers.push_back(step);
+  return numbers;
+}
+
+std::vector<std::int64_t> evenly_in_logarithm(std::int64_t steps, int count) {
+  std::vector<std::int64_t> numbers{1};
+  for (int k = 1; k <= count; ++k) {
+    const std::int64_t step =
+        std::llround(std::pow(static_cast<double>(steps), static_cast<double>(k) / count));
+    if (step > numbers.back()) numbers.push_back(step);
+  }
   return numbers;
 }
 

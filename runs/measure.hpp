@@ -64,6 +64,10 @@ struct Measured {
   std::int64_t steps;           // that the run has
   const SharedSolution& solution;
   const Integration<T>& now;  // as it goes: what its steps have cost so far
+
+  /// The time that so many steps take, and the time behind them, as the solution counts it.
+  [[nodiscard]] Quad duration(double count) const { return Quad(count) * Quad(start.step()); }
+  [[nodiscard]] Quad time_after(double count) const { return Quad(start.time()) + duration(count); }
 };
 
 /// A state of the run, after `step` steps.
@@ -76,6 +80,9 @@ struct RunState {
 
 /// 0 and about `count` other numbers of steps, evenly spaced up to `steps`.
 std::vector<std::int64_t> evenly(std::int64_t steps, int count);
+
+/// 1 and about `count` other numbers of steps, evenly spaced in their logarithm up to `steps`.
+std::vector<std::int64_t> evenly_in_logarithm(std::int64_t steps, int count);
 
 /// Takes the steps that lead a run beside the measured one to `step`. RunError where one fails, which ends
 /// the table of the measure and says why.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -57,6 +58,26 @@ struct MeasureControl {
   std::string column;                // the number of which in the last row
   double expected = 0, allowed = 0;  // is this, to so much
   bool fault = false;                // the method does not keep it: the number is off by more than that
+
+  /// A run from the system's own initial state, of which an answer is still to be named.
+  static MeasureControl of(std::string system, std::string method, std::string step, std::int64_t steps) {
+    MeasureControl control;
+    control.system = std::move(system), control.method = std::move(method);
+    control.step = std::move(step), control.steps = steps;
+    return control;
+  }
+  /// This run, with its answer.
+  [[nodiscard]] MeasureControl gives(std::string number, double answer, double to) const {
+    MeasureControl control = *this;
+    control.column = std::move(number), control.expected = answer, control.allowed = to;
+    return control;
+  }
+  /// This run, of a method that has another one.
+  [[nodiscard]] MeasureControl does_not_give(std::string number, double answer, double to) const {
+    MeasureControl control = gives(std::move(number), answer, to);
+    control.fault = true;
+    return control;
+  }
 };
 
 }  // namespace pfaff

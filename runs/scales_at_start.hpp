@@ -25,4 +25,11 @@ std::vector<double> scales_at_start(const Measured<T>& run) {
   return scales_of(sizes);
 }
 
+/// The norm of the start in these scales; 1 where the run starts at the origin.
+template <class T>
+T size_at_start(const Measured<T>& run, const std::vector<double>& scales) {
+  const T norm = scaled_norm<T>(run.start.state(), scales);
+  return norm > T(0) ? norm : T(1);
+}
+
 }  // namespace pfaff

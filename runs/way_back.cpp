@@ -25,7 +25,22 @@ std::optional<std::vector<T>> WayBack<T>::operator()(Integration<T>& run, std::i
   return image(run.state());
 }
 
+template <class T>
+std::optional<WayBack<T>> way_back(const Integration<T>& start, bool remembers) {
+  const Model& model = *start.model();
+  const std::vector<Claim> claims = claims_in_scope(start.method().preserves(model), model);
+  const auto holds = [&](Claim claim) {
+    return !remembers || std::find(claims.begin(), claims.end(), claim) != claims.end();
+  };
+  const bool stated = model.given(Formula::reversal) && model.autonomous();
+  if (stated && holds(Claim::reversible)) return WayBack<T>(start.model());
+  if (holds(Claim::symmetric)) return WayBack<T>();
+  return std::nullopt;
+}
+
 template class WayBack<double>;
 template class WayBack<Quad>;
+template std::optional<WayBack<double>> way_back(const Integration<double>&, bool);
+template std::optional<WayBack<Quad>> way_back(const Integration<Quad>&, bool);
 
 }  // namespace pfaff

@@ -27,4 +27,10 @@ class WayBack {
   std::optional<Evaluator<T>> reversal_;
 };
 
+/// What leads the method of a run back: the reversal that the model states, otherwise negative steps. A
+/// method that remembers earlier steps, of whose steps after a turn nothing is known but what it claims, is
+/// led back by what it claims to be, reversible or symmetric; nullopt where it claims neither.
+template <class T>
+std::optional<WayBack<T>> way_back(const Integration<T>& start, bool remembers);
+
 }  // namespace pfaff

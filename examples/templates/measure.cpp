@@ -63,18 +63,12 @@ struct Separation {
   static std::vector<MeasureControl> controls() {
     const double h = 0.2, even = 1 - h * h / 2 + std::pow(h, 4) / 24, odd = h - h * h * h / 6;
     const double by_rk4 = std::pow(even * even + odd * odd, 50);
-    const auto oscillator = [](const char* method, double expected, bool fault) {
-      return MeasureControl{.system = "harmonic-oscillator",
-                            .method = method,
-                            .step = "0.2",
-                            .steps = 100,
-                            .column = "separation",
-                            .expected = expected,
-                            .allowed = 1e-8,
-                            .fault = fault};
+    const auto oscillator = [](const char* method) {
+      return MeasureControl::of("harmonic-oscillator", method, "0.2", 100);
     };
-    return {oscillator("implicit-midpoint", 1, false), oscillator("rk4", by_rk4, false),
-            oscillator("rk4", 1, true)};
+    return {oscillator("implicit-midpoint").gives("separation", 1, 1e-8),
+            oscillator("rk4").gives("separation", by_rk4, 1e-8),
+            oscillator("rk4").does_not_give("separation", 1, 1e-8)};
   }
 };
 

@@ -45,18 +45,13 @@ struct ConstraintsOfRun {
 
   // RATTLE ends its steps on both levels of constraints; RK4 does not, though its motion stays on them.
   static std::vector<MeasureControl> controls() {
-    const auto of = [](const char* system, const char* method, bool fault) {
-      return MeasureControl{.system = system,
-                            .method = method,
-                            .step = "0.01",
-                            .steps = 200,
-                            .column = "max",
-                            .expected = 0,
-                            .allowed = 1e-13,  // some roundings of momenta of a size of ten
-                            .fault = fault};
+    const auto of = [](const char* system, const char* method) {
+      return MeasureControl::of(system, method, "0.01", 200);
     };
-    return {of("n-pendulum", "rattle", false), of("sphere-particle", "rattle", false),
-            of("n-pendulum", "rk4", true)};
+    const double known = 1e-13;  // some roundings of momenta of a size of ten
+    return {of("n-pendulum", "rattle").gives("max", 0, known),
+            of("n-pendulum", "rk4").does_not_give("max", 0, known),
+            of("sphere-particle", "rattle").gives("max", 0, known)};
   }
 };
 

@@ -29,18 +29,13 @@ struct Cost {
 
   // A step of RK4 has four stages. Each iteration of a Gauss method evaluates all of its stages.
   static std::vector<MeasureControl> controls() {
-    const auto of = [](const char* system, const char* method, double expected, bool fault) {
-      return MeasureControl{.system = system,
-                            .method = method,
-                            .step = "0.1",
-                            .steps = 10,
-                            .column = "rhs_per_step",
-                            .expected = expected,
-                            .allowed = 0,  // counts are whole numbers
-                            .fault = fault};
+    const auto of = [](const char* system, const char* method) {
+      return MeasureControl::of(system, method, "0.1", 10);
     };
-    return {of("harmonic-oscillator", "rk4", 4, false), of("kepler", "rk4", 4, false),
-            of("kepler", "leap-frog", 4, true)};
+    // Counts are whole numbers.
+    return {of("harmonic-oscillator", "rk4").gives("rhs_per_step", 4, 0),
+            of("kepler", "rk4").gives("rhs_per_step", 4, 0),
+            of("kepler", "leap-frog").does_not_give("rhs_per_step", 4, 0)};
   }
 };
 

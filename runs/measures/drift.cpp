@@ -66,18 +66,12 @@ struct DriftOfInvariants {
   // (1, 0) the energy rises to twice what it was.
   static std::vector<MeasureControl> controls() {
     const double of_rk4 = (1 - std::pow(std::norm(factor_of_rk4({0, 0.1})), 1000)) / 2;
-    const auto of = [](const char* method, const char* step, double expected, bool fault) {
-      return MeasureControl{.system = "harmonic-oscillator",
-                            .method = method,
-                            .step = step,
-                            .steps = 1000,
-                            .column = "max",
-                            .expected = expected,
-                            .allowed = 1e-13,  // a thousand steps, each with some roundings
-                            .fault = fault};
+    const auto of = [](const char* method, const char* step) {
+      return MeasureControl::of("harmonic-oscillator", method, step, 1000);
     };
-    return {of("rk4", "0.1", of_rk4, false), of("verlet", "1.4142135623730951", 0.5, false),
-            of("rk4", "0.1", 0, true)};
+    const double known = 1e-13;  // after a thousand steps, each with some roundings
+    return {of("rk4", "0.1").gives("max", of_rk4, known), of("rk4", "0.1").does_not_give("max", 0, known),
+            of("verlet", "1.4142135623730951").gives("max", 0.5, known)};
   }
 };
 

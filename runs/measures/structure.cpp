@@ -56,18 +56,12 @@ struct Structure {
   // also the largest of the terms: the residual is |d - 1|/d.
   static std::vector<MeasureControl> controls() {
     const double determinant = std::norm(factor_of_rk4({0, 0.1}));
-    const auto oscillator = [](const char* method, double expected, bool fault) {
-      return MeasureControl{.system = "harmonic-oscillator",
-                            .method = method,
-                            .step = "0.1",
-                            .steps = 10,
-                            .column = "residual",
-                            .expected = expected,
-                            .allowed = 1e-15,  // some roundings of numbers of size one
-                            .fault = fault};
+    const auto of = [](const char* method) {
+      return MeasureControl::of("harmonic-oscillator", method, "0.1", 10);
     };
-    return {oscillator("verlet", 0, false), oscillator("rk4", (1 - determinant) / determinant, false),
-            oscillator("rk4", 0, true)};
+    const double known = 1e-15;  // some roundings of numbers of size one
+    return {of("verlet").gives("residual", 0, known), of("rk4").does_not_give("residual", 0, known),
+            of("rk4").gives("residual", (1 - determinant) / determinant, known)};
   }
 };
 

@@ -6,18 +6,18 @@
 
 namespace pfaff {
 
-std::optional<std::pair<std::size_t, std::size_t>> plane_of(const Model& model) {
+std::optional<Plane> plane_of(const Model& model) {
   const std::vector<Coordinate>& all = model.coordinates();
   if (all.size() < 2) return std::nullopt;
-  if (all.size() == 2) return std::pair<std::size_t, std::size_t>(0, 1);
+  if (all.size() == 2) return Plane(0, 1);
   const std::size_t positions = all.size() % 2 == 0 ? all.size() / 2 : all.size();
   for (std::size_t i = 0; i < positions; ++i)
     for (std::size_t j = i + 1; j < positions; ++j)
-      if (all[i].unit == all[j].unit) return std::pair(i, j);
-  return std::pair<std::size_t, std::size_t>(0, 1);
+      if (all[i].unit == all[j].unit) return Plane(i, j);
+  return Plane(0, 1);
 }
 
-std::pair<std::size_t, std::size_t> plane_of(const Model& model, const std::string& x, const std::string& y) {
+Plane plane_of(const Model& model, const std::string& x, const std::string& y) {
   if (x.empty() && y.empty()) return plane_of(model).value();
   std::vector<std::string> names;
   for (const Coordinate& c : model.coordinates()) names.push_back(c.name);

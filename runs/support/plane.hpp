@@ -10,13 +10,16 @@
 
 namespace pfaff {
 
-/// The numbers of two coordinates: q and p where these are all there are, otherwise the first two of the
-/// positions (of all coordinates where their number is odd) that have one unit, and the first two coordinates
-/// where no two have. Empty for a system of fewer than two coordinates.
-std::optional<std::pair<std::size_t, std::size_t>> plane_of(const Model& model);
+/// The numbers of two coordinates.
+using Plane = std::pair<std::size_t, std::size_t>;
+
+/// The plane of q and p where these are all there are, otherwise of the first two of the
+/// positions (of all coordinates where their number is odd) that have one unit, and of the first two
+/// coordinates where no two have. Empty for a system of fewer than two coordinates.
+std::optional<Plane> plane_of(const Model& model);
 
 /// Those of the coordinates `x` and `y`, or the above where both are empty, of a system that has two.
 /// InputError where one is none, with the nearest.
-std::pair<std::size_t, std::size_t> plane_of(const Model& model, const std::string& x, const std::string& y);
+Plane plane_of(const Model& model, const std::string& x, const std::string& y);
 
 }  // namespace pfaff

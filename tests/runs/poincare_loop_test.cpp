@@ -84,6 +84,16 @@ TEST(LoopInvariant, TellsWhenALoopIsNoLongerResolved) {
   EXPECT_GT(loops.back().uncertainty, 1e-3);
 }
 
+// Ten points of a small circle resolve it, and so do five, an odd number with weights of its own.
+TEST(LoopInvariant, OfFewPointsIsTheSame) {
+  const ToMeasure run = looped("harmonic-oscillator", "verlet");
+  EXPECT_FALSE(fits("poincare-loop(points=9)", run));
+  for (const MeasuredTable::Line& line : table_of("poincare-loop(points=10)", run).lines) {
+    EXPECT_NEAR(testing::number(line, 0), 1, 1e-11) << line.step;
+    EXPECT_LT(testing::number(line, 1), 1e-11) << line.step;
+  }
+}
+
 // In quad the integral is known as well as states are: 64 points of a loop of size 1/1000.
 TEST(LoopInvariant, IsMeasuredInThePrecisionOfTheRun) {
   const auto run = integrate<Quad>("pendulum", {}, "verlet", {}, {.step = "0.1"});

@@ -30,14 +30,8 @@ class WithControls final : public MeasurePlugin {
 
 // RK4 has four right-hand sides a step.
 MeasureControl of_rk4(double expected, bool fault = false) {
-  return {.system = "harmonic-oscillator",
-          .method = "rk4",
-          .step = "0.1",
-          .steps = 10,
-          .column = "rhs_per_step",
-          .expected = expected,
-          .allowed = 0.5,
-          .fault = fault};
+  const MeasureControl run = MeasureControl::of("harmonic-oscillator", "rk4", "0.1", 10);
+  return fault ? run.does_not_give("rhs_per_step", expected, 0.5) : run.gives("rhs_per_step", expected, 0.5);
 }
 
 TEST(MeasureControls, HoldWhereTheNumbersAreRight) {
@@ -75,14 +69,9 @@ TEST(MeasureControls, SayWhyTheyCouldNotBeRun) {
 
 // From (0, 1) the oscillator is at (sin t, cos t); five stretches have eight digits.
 TEST(MeasureControls, BeginAtTheStateThatIsNamed) {
-  MeasureControl control{.system = "harmonic-oscillator",
-                         .method = "implicit-midpoint",
-                         .initial = {"0", "1"},
-                         .step = "0.1",
-                         .steps = 500,
-                         .column = "exact_x",
-                         .expected = std::sin(50.0),
-                         .allowed = 5e-8};
+  MeasureControl control = MeasureControl::of("harmonic-oscillator", "implicit-midpoint", "0.1", 500)
+                               .gives("exact_x", std::sin(50.0), 5e-8);
+  control.initial = {"0", "1"};
   EXPECT_TRUE(good(check_measure(WithControls("motion", {control})).front()));
   control.initial.clear();
   EXPECT_FALSE(good(check_measure(WithControls("motion", {control})).front()));
