@@ -174,7 +174,7 @@ struct Rattle : ConstrainedVerlet {
     const T middle = t + kick;  // the time of T that the kick has reached
     c.velocity(middle, q, w.momentum, w.velocity);
     CoordinateConvergence<T> convergence;
-    convergence.expect_floor(w.expected_floor());
+    convergence.expect(w.expected_floor(), w.expected_contraction());
     VectorCorrections<T> moved(convergence.each());
     for (std::size_t k = 0; k < n; ++k) {
       w.displacement[k] = length * w.velocity[k];

@@ -211,8 +211,8 @@ class CoordinateConvergence {
   }
   /// `floor`: what corrections by their own coordinates came to in an earlier iteration like this one, where
   /// rounding lets them become no smaller; 0 where that is not known. With it none is made in vain to see it
-  /// again.
-  void expect_floor(const Number& floor) { floor_ = floor; }
+  /// again. `contraction`: an upper bound for the second correction over the first; 1 where none is known.
+  void expect(const Number& floor, const Number& contraction) { floor_ = floor, expected_ = contraction; }
   /// What they came to in this one; 0 where that was not seen, or is more than three digits, since that of a
   /// coordinate that is nearly zero says nothing of the others.
   [[nodiscard]] Number floor() const {
@@ -266,10 +266,10 @@ class CoordinateConvergence {
   }
   // Whether coordinates in unlike units are corrected by less and less, and have not come to round-off.
   bool goes_on() {
-    const Number u = unit_roundoff<T>(), ratio = own_ / previous_;
+    const Number u = unit_roundoff<T>(), ratio = watch_.iterations() == 1 ? expected_ : own_ / previous_;
     const bool foretold = corrections_ == Corrections::even &&
-                          previous_ < std::numeric_limits<Number>::infinity() && ratio < Number(0.5) &&
-                          ratio * own_ <= u / Number(64);
+                          own_ < std::numeric_limits<Number>::infinity() && ratio < Number(0.5) &&
+                          ratio * own_ <= std::max(Number(u / Number(64)), floor_);
     own_idle_ = own_ < smallest_own_ / Number(2) ? 0 : own_idle_ + 1;
     smallest_own_ = std::min(smallest_own_, own_);
     const Number least = std::max(Number(u / Number(8)), Number(Number(4) * floor_));
@@ -278,7 +278,7 @@ class CoordinateConvergence {
 
   Watch watch_;
   Corrections corrections_;
-  Number size_{0}, own_{0}, previous_{0}, stagnant_{0}, floor_{0};
+  Number size_{0}, own_{0}, previous_{0}, stagnant_{0}, floor_{0}, expected_{1};
   Number smallest_ = std::numeric_limits<Number>::infinity(), smallest_own_ = smallest_;
   int idle_ = 0, own_idle_ = 0, more_ = 0;
   Kick kick_ = Kick::none;
