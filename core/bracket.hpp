@@ -32,6 +32,8 @@ struct BracketDescriptor {
   Symmetry symmetry = Symmetry::skew;
   bool jacobi = true;       // claims the Jacobi identity
   bool semimetric = false;  // claims <f, f> >= 0
+  /// Where each coordinate has to be for what is claimed, as {0, inf} says for a size; empty: anywhere.
+  std::vector<Range> ranges{};
 };
 
 /// A bracket with its parameters fixed: its sharp map as a tape of (z, covector), 2 n inputs, n outputs.
@@ -125,7 +127,12 @@ class Bracket final : public BracketPlugin {
       } else {
         dimension = B::dimension;
       }
-      BracketInstance instance{dimension, resolved(parameters(), &object), sharp_tape(object, dimension), {}};
+      BracketInstance instance{
+          dimension, resolved(parameters(), &object), sharp_tape(object, dimension), {}, descriptor().ranges};
+      if (!instance.ranges.empty() && instance.ranges.size() != static_cast<std::size_t>(dimension))
+        throw InputError("bracket " + name() + ": expected a range for each of its " +
+                         std::to_string(dimension) + " coordinates, got " +
+                         std::to_string(instance.ranges.size()));
       if constexpr (requires { object.casimir_count(); })
         instance.casimirs = std::make_shared<const Tape>(record(
             dimension, object.casimir_count(),

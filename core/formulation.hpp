@@ -156,7 +156,7 @@ class Formulation final : public FormulationPlugin {
   [[nodiscard]] std::string refuses(const Model& model) const override {
     std::string reason = misfit(model);
     if constexpr (detail::formulation::writes_refuses<F>)
-      if (reason.empty()) reason = F().refuses(model);
+      if (reason.empty()) reason = on_behalf_of("formulation " + name(), [&] { return F().refuses(model); });
     return reason;
   }
   [[nodiscard]] std::shared_ptr<const Model> apply(const std::shared_ptr<const Model>& model,
@@ -179,7 +179,8 @@ class Formulation final : public FormulationPlugin {
     return statement;
   }
   [[nodiscard]] std::vector<Assignments> instances([[maybe_unused]] bool full) const override {
-    if constexpr (detail::formulation::writes_instances<F>) return F::instances(full);
+    if constexpr (detail::formulation::writes_instances<F>)
+      return on_behalf_of("formulation " + name(), [&] { return F::instances(full); });
     return {{}};
   }
 

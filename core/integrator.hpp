@@ -221,7 +221,8 @@ class Method final : public MethodPlugin {
     });
   }
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override {
-    if constexpr (requires { M::instances(full); }) return M::instances(full);
+    if constexpr (requires { M::instances(full); })
+      return on_behalf_of("integrator " + name(), [&] { return M::instances(full); });
     return {{}};
   }
 };

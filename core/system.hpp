@@ -175,7 +175,9 @@ class System final : public SystemPlugin, private detail::CodeOfSystem<S> {
       }
     });
   }
-  [[nodiscard]] std::vector<Assignments> instances(bool full) const override { return instances_of<S>(full); }
+  [[nodiscard]] std::vector<Assignments> instances(bool full) const override {
+    return on_behalf_of("system " + name(), [&] { return instances_of<S>(full); });
+  }
 };
 
 /// The registration in the unit that makes code in double (core/facets/scalar_units.hpp).

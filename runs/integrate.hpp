@@ -46,7 +46,8 @@ template <class T = double>
 [[nodiscard]] Integration<T> integrate(const std::shared_ptr<const Model>& model,
                                        std::shared_ptr<const MethodInstance> method, const T& h) {
   Start<T> start{model, std::move(method), {}, h};
-  for (const Real& x : model->initial()) start.state.push_back(T(x));
+  if (model != nullptr)
+    for (const Real& x : model->initial()) start.state.push_back(T(x));
   return begun(std::move(start));
 }
 

@@ -116,8 +116,9 @@ std::vector<MeasuredTable> measured(const Integration<T>& start, std::int64_t st
       all[m].measuring = measures[m]->on(of);
       const std::vector<std::int64_t>& looks = all[m].measuring->looks();
       if (!std::is_sorted(looks.begin(), looks.end(), std::less_equal<>()) ||
-          (!looks.empty() && looks.front() < 0))
-        throw InputError("looks: expected numbers of steps >= 0 in increasing order");
+          (!looks.empty() && (looks.front() < 0 || looks.back() > steps)))
+        throw InputError("looks: expected numbers of steps from 0 to the " + std::to_string(steps) +
+                         " of the run, in increasing order");
     });
   }
   SeesBlocks<T> blocks(all);

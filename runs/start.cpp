@@ -17,6 +17,10 @@ void complete_and_check(Start<T>& start) {
   if (const std::string reason = start.method->refuses(*start.model); !reason.empty())
     throw InputError(reason + what_to_do(*start.method, *start.model));
   check_place(*start.model, start.state, start.h, start.t0, value_of(start.tolerance) > V(0));
+  constexpr std::size_t most_rows = 1U << 20U;
+  if (start.block_rows > most_rows)
+    throw InputError("rows of a block: expected at most " + std::to_string(most_rows) + ", got " +
+                     std::to_string(start.block_rows));
   if (start.absolute.size() == 1) start.absolute.assign(start.state.size(), T(start.absolute.front()));
   std::vector<Quad> absolute;
   for (const T& x : start.absolute) absolute.emplace_back(value_of(x));

@@ -57,6 +57,25 @@ std::shared_ptr<const Tape> skew_part(const Tape& tensor, int n) {
       for (std::size_t j = 0; j < size; ++j) out[i * size + j] = g[i * size + j] - g[j * size + i];
   });
 }
+// What the sharp map of two covectors differs by from the tensor times them: it may be linear along the unit
+// covectors, of which the tensor is made, and nowhere else.
+std::shared_ptr<const Tape> not_linear(const Tape& sharp, const Tape& tensor, int n) {
+  const auto size = static_cast<std::size_t>(n);
+  return expression(n, 2 * n, [&](const Recorded& t, Arguments z, Results out) {
+    const auto pi = evaluate(tensor, t, z);
+    for (std::size_t c = 0; c < 2; ++c) {
+      std::vector<Recorded> x(z.begin(), z.end());
+      for (std::int64_t k = 0; k < n; ++k)
+        x.emplace_back(Real::fraction((k + static_cast<std::int64_t>(c)) % 2 == 0 ? 5 + 2 * k : -3 - k, 4));
+      const auto image = evaluate(sharp, t, x);
+      for (std::size_t i = 0; i < size; ++i) {
+        Recorded sum(0);
+        for (std::size_t j = 0; j < size; ++j) sum = sum + pi[i * size + j] * x[size + j];
+        out[c * size + i] = image[i] - sum;
+      }
+    }
+  });
+}
 std::vector<Real> bracket_point(int n) {
   std::vector<Real> z;
   for (int k = 0; k < n; ++k) z.push_back(Real::fraction(3 + 2 * k, 7));
@@ -65,13 +84,35 @@ std::vector<Real> bracket_point(int n) {
 // States of all sizes up to ten, with coordinates that are positive, as sizes and temperatures are.
 Region bracket_region(int n) {
   Region region(bracket_point(n));
-  for (const std::int64_t factor : {2, 4, 8}) {
+  for (const std::int64_t factor : {2, 4, 8, 24}) {
     std::vector<Real> z;
     for (const Real& x : bracket_point(n)) z.push_back(Real::fraction(factor, 2) * x);
     region.centres.push_back(std::move(z));
     region.times.push_back(1);
   }
   return region;
+}
+// That the Casimirs are ones, and that each has a slope near the first centre, without which it would be a
+// Casimir of every bracket.
+std::vector<Check> check_casimirs(const std::string& name, const Tape& tensor, const Tape& casimirs,
+                                  const Region& region) {
+  std::vector<Check> checks;
+  both(checks, name, "Casimirs", "", sharp_of_casimirs(tensor, casimirs), region);
+  const std::vector<Real>& z = region.centres.front();
+  const Tape slopes = jacobian_tape(casimirs);
+  std::vector<Quad> values(slopes.outputs.size()), at;
+  for (const Real& x : z) at.push_back(x.quad());
+  Replay<Quad>(std::make_shared<const Tape>(slopes))(Quad(1), at.data(), values.data());
+  for (std::size_t c = 0; c * z.size() < values.size(); ++c) {
+    const auto slope = values.begin() + static_cast<std::ptrdiff_t>(c * z.size());
+    if (std::any_of(slope, slope + static_cast<std::ptrdiff_t>(z.size()),
+                    [](const Quad& x) { return x != Quad(0); }))
+      continue;
+    checks.front().result = CheckResult::fail;
+    checks.front().reason =
+        "Casimir " + std::to_string(c + 1) + " is the same at every state, so that it says nothing";
+  }
+  return checks;
 }
 }  // namespace
 
@@ -81,7 +122,9 @@ std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments&
   const auto tensor = tensor_of(*bracket.sharp, n);
   Region centre = bracket_region(n);
   centre.box = bracket.ranges;
+  centre = with_branches_of(*tensor, std::move(centre));
   std::vector<Check> checks;
+  both(checks, plugin.name(), "sharp is linear", "", not_linear(*bracket.sharp, *tensor, n), centre);
   if (plugin.descriptor().symmetry == Symmetry::skew)
     both(checks, plugin.name(), "skew", "", symmetric_part(*tensor, n), centre);
   if (plugin.descriptor().symmetry == Symmetry::symmetric)
@@ -92,7 +135,8 @@ std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments&
     for (Check& check : check_not_negative(plugin.name(), "semimetric", "", tensor, centre))
       checks.push_back(std::move(check));
   if (bracket.casimirs != nullptr)
-    both(checks, plugin.name(), "Casimirs", "", sharp_of_casimirs(*tensor, *bracket.casimirs), centre);
+    for (Check& check : check_casimirs(plugin.name(), *tensor, *bracket.casimirs, centre))
+      checks.push_back(std::move(check));
   for (Check& check : checks) check.parameters = parameters;
   return checks;
 }
@@ -162,6 +206,18 @@ std::vector<Check> check_false_brackets() {
           check_not_negative("", "semimetric", "", slanted, bracket_point(3)).back());
   control("|z|^2 with 1e-6 of a component added", "Casimirs",
           residual(sharp_of_casimirs(rotation, no_casimir), 3));
+  // In so(3) with a product of components the unit covectors see nothing.
+  const auto bent = record(6, 3, [](const Recorded&, Arguments x, Results out) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      const std::size_t b = (a + 1) % 3, c = (a + 2) % 3;
+      out[a] = x[c] * x[3 + b] - x[b] * x[3 + c];
+    }
+    out[0] = out[0] + Recorded(Real::fraction(1, 1000000)) * x[3] * x[4];
+  });
+  control("bracket with a product of components of a covector", "sharp is linear",
+          residual(not_linear(bent, *tensor_of(bent, 3), 3), 3));
+  const auto constant = record(3, 1, [](const Recorded&, Arguments, Results out) { out[0] = Recorded(1); });
+  control("a constant", "Casimirs", check_casimirs("", rotation, constant, Region(bracket_point(3))).front());
   control("bracket skew but for 1e-6", "symmetric", residual(skew_part(lopsided, 2), 2));
   control("bracket skew but for 1e-6", "skew", residual(symmetric_part(lopsided, 2), 2));
   return checks;

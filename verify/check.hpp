@@ -77,10 +77,11 @@ Real generic_time_of(const Model& model);
 struct MeasuredOrder {
   double slope = 0;
   bool settled = false;
-  bool exact = false;      // the longest step has an error of round-off, and the slopes do not settle
-  bool backwards = false;  // measured with h < 0
-  double moving = 0;       // by how much the last slopes differ, of three or more that have not settled
-  std::string reason;      // why it has not settled
+  bool exact = false;           // the longest step has an error of round-off, and the slopes do not settle
+  bool backwards = false;       // measured with h < 0
+  bool forwards_alone = false;  // steps of h < 0 show none
+  double moving = 0;            // by how much the last slopes differ, of three or more that have not settled
+  std::string reason;           // why it has not settled
 };
 MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<const Model>& model,
                             bool history = false);

@@ -134,8 +134,10 @@ std::vector<Check> checks_of(const MethodInstance& method, const Assignments& pa
   if (on.differentiable()) checks.push_back(within("order", "every system", of_order, check_order));
   if (conditions) checks.push_back(std::move(*conditions));
   for (Check& check : check_adaptive(on)) checks.push_back(std::move(check));
-  if (on.history() && !on.double_coefficients())
+  if (on.history() && !on.double_coefficients()) {
     checks.push_back(within("steps of another motion", "methods with history", "quad", check_continuation));
+    checks.push_back(within("steps of another size", "methods with history", "quad", check_changed_steps));
+  }
   if (method.processed())
     checks.push_back(within("steps-in-a-row", "processed methods", "quad", check_steps_in_a_row));
   if (on.double_coefficients()) {

@@ -107,6 +107,8 @@ std::optional<Check> check_order_conditions(MethodOnModel& on);
 /// Whether a method that remembers earlier steps forgets them where a run goes on from elsewhere: from
 /// another state, or backwards.
 Check check_continuation(const MethodOnModel& on);
+/// Whether one that uses the past behind a step of another size, or on its way back, uses it rightly.
+Check check_changed_steps(const MethodOnModel& on);
 
 // run_checks.cpp
 /// The claims of the method in every step of runs of a thousand steps, or in sixteen of them where a claim

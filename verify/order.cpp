@@ -227,6 +227,7 @@ MeasuredOrder measure_order(const MethodInstance& method, const std::shared_ptr<
     if (!order.settled && kinks) return direction > 0 ? MeasuredOrder{.reason = across_a_kink} : slower;
     order.slope -= 1;
     order.backwards = direction < 0;
+    if (order.backwards && !order.settled && !order.exact) slower.forwards_alone = true;
     if (direction > 0 || (order.settled && slower.settled && order.slope < slower.slope - 0.5))
       slower = order;
   }

@@ -29,6 +29,8 @@ Check check_order(MethodOnModel& on) {
     check.result = low ? CheckResult::fail : CheckResult::pass;
     if (order.backwards)
       check.reason = "backwards in time, h < 0";
+    else if (order.forwards_alone)
+      check.reason = "of steps forwards alone: errors of steps back settle at no order";
     else if (order.slope > check.expected + 0.5)
       check.reason = "more than claimed on this system";
     return check;

@@ -1,5 +1,5 @@
-// The claims of a reversal: rho is an involution, rho rho z = z, and turns the motion round, d rho X = -X o
-// rho, so that rho o flow_h = flow_-h o rho.
+// The claims of a reversal: rho is an involution, rho rho z = z, and turns the motion round, d rho X(z, t) =
+// -X(rho z, -t), so that from the time 0 rho o flow_h = flow_-h o rho, also where the system is driven.
 #include <pfaff/verify/residuals.hpp>
 
 namespace pfaff {
@@ -16,7 +16,7 @@ std::vector<Check> check_reversal(const std::string& name, const Model& motion, 
   const auto turned = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto rate = evaluate(*field, t, z);
     const auto carried = directional_derivative(*reversal, t, Recorded(0), z, rate);
-    const auto there = evaluate(*field, t, evaluate(*reversal, t, z));
+    const auto there = evaluate(*field, -t, evaluate(*reversal, t, z));
     for (std::size_t k = 0; k < z.size(); ++k) out[k] = carried[k] + there[k];
   });
   both(checks, name, "reversal turns the field", name, turned, region);

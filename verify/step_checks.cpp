@@ -7,6 +7,7 @@
 #include <random>
 
 #include <pfaff/bench/runner/terminal.hpp>
+#include <pfaff/core/numbers/formatted.hpp>
 #include <pfaff/runs/history.hpp>
 #include <pfaff/runs/integration.hpp>
 #include <pfaff/verify/check_budget.hpp>
@@ -195,6 +196,45 @@ Check check_continuation(const MethodOnModel& on) {
   differs(moved, t, h, "from another state");
   differs(start, t, h, "from the state that it began at");
   differs(moved, t + Quad(8) * h, -h, "from another state and time and the other way");
+  return check;
+}
+
+// A method may use the past behind a step of another size, or on its way back, where its coefficients are
+// those of the times at which it was: then it differs from one that forgets by what a step errs, h^(p + 1).
+// One that takes the old coefficients differs by h^2.
+Check check_changed_steps(const MethodOnModel& on) {
+  constexpr double nothing = 1e-24, half_an_order = 0.5;
+  std::vector<Quad> start;
+  for (const Real& x : on.start()) start.push_back(x.quad());
+  const int order = on.method().order(*on.model());
+  Check check = on.check("steps of another size", "methods with history", "quad");
+  check.expected = order + 1;
+  check.tolerance = half_an_order;
+  check.result = CheckResult::pass;
+  check.measured = check.expected;
+  // What a step of `factor` h behind steps of h differs by from that of a method that has forgotten them.
+  const auto difference = [&](const Quad& h, const Quad& factor) {
+    Integration<Quad> going_on(start_with(on.method(), on.model(), start, h, on.time().quad()));
+    if (!going_on.steps(longest_beginning + 1).reached()) return 0.0;
+    const std::vector<Quad> here(going_on.state().begin(), going_on.state().end());
+    Integration<Quad> fresh = going_on.beside(here, going_on.time(), factor * h);
+    going_on.go_on_from(here, going_on.time(), factor * h);
+    if (!going_on.steps(1).reached() || !fresh.steps(1).reached()) return 0.0;
+    return relative_difference<Quad>(going_on.state(), fresh.state());
+  };
+  const Quad h = on.step_size().quad();
+  for (const auto& [factor, what] :
+       {std::pair{Quad(0.5), "a step half as long as those before"}, {Quad(-1), "a step back"}}) {
+    const double of_16 = difference(h / Quad(16), factor), of_64 = difference(h / Quad(64), factor);
+    if (of_16 <= nothing || of_64 <= nothing) continue;
+    const double seen = std::log(of_16 / of_64) / std::log(4.0);
+    check.measured = std::min(check.measured, seen);
+    if (seen >= check.expected - half_an_order || check.result == CheckResult::fail) continue;
+    check.result = CheckResult::fail;
+    check.reason = std::string(what) + " differs from that of a run that begins there by h^" +
+                   formatted("%.2f", seen) + ", expected h^" + std::to_string(order + 1) +
+                   " or nothing: its coefficients are those of other steps";
+  }
   return check;
 }
 

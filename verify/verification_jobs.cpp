@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
+#include <new>
 
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/core/formulation.hpp>
@@ -104,48 +106,71 @@ class Jobs {
     }
   }
 
+  // Whether work() came to its end, which asks a plug-in what there is to verify. What the plug-in throws is
+  // a failed check of it, to be told where it was asked for, and says nothing of what else is verified. Of
+  // parameters and of texts, which whoever asks has written, errors pass.
+  bool guarded(const Plugin& plugin, bool asked_for, const std::function<void()>& work) {
+    try {
+      work();
+      return true;
+    } catch (const BudgetSpent&) {
+      throw;
+    } catch (const std::bad_alloc&) {
+      throw;
+    } catch (const InputError& error) {
+      const bool of_plugin = dynamic_cast<const PluginError*>(&error) != nullptr;
+      if (!of_plugin && (!settings_.set.empty() || texts_.contains(&plugin))) throw;
+      if (asked_for) add_failure(plugin, error.what());
+    } catch (...) {
+      if (asked_for) add_failure(plugin, words_of_current_exception());
+    }
+    return false;
+  }
+  void add_failure(const Plugin& plugin, std::string reason) {
+    Check thrown;
+    thrown.plugin = plugin.name();
+    thrown.claim = "checks";
+    thrown.result = CheckResult::fail;
+    thrown.measured = std::numeric_limits<double>::quiet_NaN();
+    thrown.reason = std::move(reason);
+    add_result(thrown);
+  }
+  void add_result(const Check& check) {
+    jobs_.push_back({check.plugin, [check] { return std::vector{check}; }});
+  }
+
   // Claims are measured near the initial state. A system that has none, since whoever runs it states one, is
   // refused where it is asked for by name, and otherwise only said to be left out.
   void leave_out_systems_without_a_state() {
     std::erase_if(systems_, [&](const SystemPlugin* system) {
-      const bool asked_for = named(asked_as(*system));
-      const auto leave_out = [&](Check whole) {
-        whole.plugin = whole.system = system->name();
-        whole.claim = "checks";
-        if (asked_for || wanted("systems"))
-          jobs_.push_back({system->name(), [whole] { return std::vector{whole}; }});
+      const bool asked_for = named(asked_as(*system)), shown = asked_for || wanted("systems");
+      bool has_state = false;
+      if (!guarded(*system, shown,
+                   [&] { has_state = !system->make(parameters_of(*system))->initial().empty(); }))
         return true;
-      };
-      try {
-        if (!system->make(parameters_of(*system))->initial().empty()) return false;
-      } catch (const BudgetSpent&) {
-        throw;
-      } catch (const InputError&) {
-        throw;
-      } catch (...) {  // a formula of its author's that throws, which says nothing of what else is verified
-        Check thrown;
-        thrown.result = CheckResult::fail;
-        thrown.measured = std::numeric_limits<double>::quiet_NaN();
-        thrown.reason = words_of_current_exception();
-        return leave_out(thrown);
-      }
+      if (has_state) return false;
       if (asked_for)
         throw InputError("system " + system->name() +
                          " has no initial state, near which its claims are measured");
-      return leave_out(not_judged({}, "the system has no initial state"));
+      Check whole;
+      whole.plugin = whole.system = system->name();
+      whole.claim = "checks";
+      if (shown) add_result(not_judged(whole, "the system has no initial state"));
+      return true;
     });
   }
 
   void add_systems() {
     for (const SystemPlugin* system : systems_)
       if (wanted(asked_as(*system)) || wanted("systems"))
-        add_identities(*system, system->instances(settings_.full), check_system);
+        guarded(*system, true,
+                [&] { add_identities(*system, system->instances(settings_.full), check_system); });
   }
 
   void add_brackets() {
     for (const BracketPlugin* bracket : brackets_)
       if (wanted(asked_as(*bracket)) || wanted("brackets"))
-        add_identities(*bracket, instances_of(*bracket), check_bracket);
+        guarded(*bracket, true, [&] { add_identities(*bracket, instances_of(*bracket), check_bracket); });
   }
 
   // What a plug-in states of itself, with the parameters of its instances and with two sets drawn near the
@@ -176,14 +201,16 @@ class Jobs {
     for (const auto& model : random_constraints()) add(model);
     for (const auto& model : skated_models()) add(model);
     for (const FormulationPlugin* formulation : formulations().all())
-      for (const auto& [made, asked] : models) {
-        const std::shared_ptr<const Model>& model = made;
-        if (!wanted(formulation->name()) && !wanted("formulations") && !wanted(asked)) continue;
-        for (const Assignments& p : parameters(formulation->name(), formulation->instances(settings_.full)))
-          if (verified_on(*formulation, p, *model))
-            jobs_.push_back({called(formulation->name(), p) + " of " + model->name(),
-                             [=] { return check_formulation(*formulation, p, model); }});
-      }
+      guarded(*formulation, true, [&] {
+        for (const auto& [made, asked] : models) {
+          const std::shared_ptr<const Model>& model = made;
+          if (!wanted(formulation->name()) && !wanted("formulations") && !wanted(asked)) continue;
+          for (const Assignments& p : parameters(formulation->name(), formulation->instances(settings_.full)))
+            if (verified_on(*formulation, p, *model))
+              jobs_.push_back({called(formulation->name(), p) + " of " + model->name(),
+                               [=] { return check_formulation(*formulation, p, model); }});
+        }
+      });
   }
 
   void add_measures() {
@@ -209,13 +236,14 @@ class Jobs {
     // An alias is verified only when asked for, as what it names is verified anyway.
     for (const MethodPlugin* alias : integrators().aliases())
       if (named(alias->name())) methods.push_back(alias);
-    for (const MethodPlugin* method : methods) {
-      const bool all = wanted(method->name()) || wanted("integrators");
-      if (all) add_random_systems(*method);
-      if (all) add_coefficients(*method);
-      for (const SystemPlugin* system : systems_)
-        if (all || wanted(asked_as(*system))) add_method(*method, *system);
-    }
+    for (const MethodPlugin* method : methods)
+      guarded(*method, true, [&] {
+        const bool all = wanted(method->name()) || wanted("integrators");
+        if (all) add_random_systems(*method);
+        if (all) add_coefficients(*method);
+        for (const SystemPlugin* system : systems_)
+          if (all || wanted(asked_as(*system))) add_method(*method, *system);
+      });
   }
 
   void add_coefficients(const MethodPlugin& method) {

@@ -5,6 +5,7 @@
 #include <pfaff/bench/experiment/automatic_steps.hpp>
 #include <pfaff/bench/experiment/citations.hpp>
 #include <pfaff/bench/experiment/tables.hpp>
+#include <pfaff/core/tape/kinks.hpp>
 
 namespace pfaff {
 
@@ -50,6 +51,8 @@ nlohmann::json description(const Experiment& experiment, const std::vector<Exper
                                                  : exact      ? "exact"
                                                               : "30-digit"}});
     if (const std::string name = system_name(*run); name != c.system) j["cases"].back()["model"] = name;
+    if (const auto field = model.tape(Formula::field); field != nullptr && !Kinks<double>(*field).none())
+      j["cases"].back()["kinks"] = true;
     if (!c.error.empty()) j["cases"].back()["error"] = c.error;
     // Steps that are still to be chosen may make more rows than these.
     const bool many = c.automatic || std::any_of(runs.begin(), runs.end(), [&](const ExperimentRun& r) {

@@ -65,44 +65,51 @@ def drift_beside_growth(verdict):
 
 
 def constraints(verdict):
-    """Of the first kind of constraints of which residuals of two methods are known, at the step that most methods share."""
-    experiment, runs = verdict.experiment, {r.method: r for r in verdict.experiment.at_common_step(verdict.case)}
-    for level in experiment.residuals:
-        spans = {}
-        for row in verdict.rivals:
-            members = [r for r in experiment.ensemble_of(runs[row.label]) if not r.failed]
-            values = [r.drift(level, "max") for r in members]
-            if values and not any(map(math.isnan, values)):
-                spans[row.label] = (min(values), max(values))
-        rows = [r for r in verdict.rivals if r.label in spans]
-        if len(rows) < 2:
-            continue
-        on, off, _ = three(rows, lambda r: spans[r.label][1] <= ROUND_OFF * verdict.unit)
-        off.sort(key=lambda r: spans[r.label])
-        first = [r for r in off if spans[r.label][0] <= TIE * spans[off[0].label][1]]
-        last = [r for r in off if TIE * spans[r.label][1] >= spans[off[-1].label][0]]
-        kind = text(level.replace("-", " ")) + "s"
-        missing = [r for r in verdict.rivals if r not in rows]
-        none = f"of {counted(len(rows), 'method')} of which it is known none stays" if missing else "no method stays"
-        at = at_steps(verdict, [runs[r.label] for r in rows])
-        parts = [f"{at}{names(on)} {'stays' if len(on) == 1 else 'stay'} on the {kind}" if on else f"{at}{none} on the {kind}"]
+    """Of the kinds of constraints of which residuals of two methods are known, at the step that most methods share: the first, and
+    each other one on which others stay, as those that are on the positions' constraints alone do not."""
+    found = []
+    for level in verdict.experiment.residuals:
+        found += on_constraints(verdict, level, bool(found))
+    return found[:1] + [clause for clause in found[1:] if clause.subject != found[0].subject]
 
-        def ends(rows):
-            low, high = min(spans[r.label][0] for r in rows), max(spans[r.label][1] for r in rows)
-            return size(high) if size(low) == size(high) else f"{size(low)} to {size(high)}"
-        if off and (set(labels(first)) & set(labels(last)) or len(first) + len(last) > 6):
-            parts.append(f"{names(off) if len(off) <= 4 else f'{len(off)} methods'} {'leaves' if len(off) == 1 else 'leave'} them, "
-                         f"by {ends(off)}")
-            first = last = []
-        elif off:
-            parts.append(f"{names(first)} {'leaves' if len(first) == 1 else 'leave'} them least, by {ends(first)}, and {names(last)} "
-                         f"most, by {ends(last)}")
-        parts += [f"of {some(missing)} it is not known"] if missing else []
-        return [Clause("; ".join(parts), "constraints", labels(on), [f"{level}:max"],
-                       {r.label: wheres(verdict, runs[r.label]) for r in rows},
-                       {"off": labels(off), "least": labels(first), "most": labels(last),
-                        "spans": {r.label: list(spans[r.label]) for r in rows}})]
-    return []
+
+def on_constraints(verdict, level, known):
+    """`known`: the step is that of a clause before this one."""
+    experiment, runs = verdict.experiment, {r.method: r for r in verdict.experiment.at_common_step(verdict.case)}
+    spans = {}
+    for row in verdict.rivals:
+        members = [r for r in experiment.ensemble_of(runs[row.label]) if not r.failed]
+        values = [r.drift(level, "max") for r in members]
+        if values and not any(map(math.isnan, values)):
+            spans[row.label] = (min(values), max(values))
+    rows = [r for r in verdict.rivals if r.label in spans]
+    if len(rows) < 2:
+        return []
+    on, off, _ = three(rows, lambda r: spans[r.label][1] <= ROUND_OFF * verdict.unit)
+    off.sort(key=lambda r: spans[r.label])
+    first = [r for r in off if spans[r.label][0] <= TIE * spans[off[0].label][1]]
+    last = [r for r in off if TIE * spans[r.label][1] >= spans[off[-1].label][0]]
+    kind = text(level.replace("-", " ")) + "s"
+    missing = [r for r in verdict.rivals if r not in rows]
+    none = f"of {counted(len(rows), 'method')} of which it is known none stays" if missing else "no method stays"
+    at = "" if known else at_steps(verdict, [runs[r.label] for r in rows])
+    parts = [f"{at}{names(on)} {'stays' if len(on) == 1 else 'stay'} on the {kind}" if on else f"{at}{none} on the {kind}"]
+
+    def ends(rows):
+        low, high = min(spans[r.label][0] for r in rows), max(spans[r.label][1] for r in rows)
+        return size(high) if size(low) == size(high) else f"{size(low)} to {size(high)}"
+    if off and (set(labels(first)) & set(labels(last)) or len(first) + len(last) > 6):
+        parts.append(f"{names(off) if len(off) <= 4 else f'{len(off)} methods'} {'leaves' if len(off) == 1 else 'leave'} them, "
+                     f"by {ends(off)}")
+        first = last = []
+    elif off:
+        parts.append(f"{names(first)} {'leaves' if len(first) == 1 else 'leave'} them least, by {ends(first)}, and {names(last)} "
+                     f"most, by {ends(last)}")
+    parts += [f"of {some(missing)} it is not known"] if missing else []
+    return [Clause("; ".join(parts), "constraints", labels(on), [f"{level}:max"],
+                   {r.label: wheres(verdict, runs[r.label]) for r in rows},
+                   {"off": labels(off), "least": labels(first), "most": labels(last),
+                    "spans": {r.label: list(spans[r.label]) for r in rows}})]
 
 
 def at_steps(verdict, runs):

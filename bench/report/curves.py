@@ -56,6 +56,7 @@ class Curve:
     of_state: bool = True  # errors are of the state, whose order the method claims; those of a quantity may fall faster
     claims: bool = False  # the method claims to keep the structure of the case
     structured: bool = True  # the case has a structure to keep
+    kinked: bool = False  # its field has kinks, where the Jacobian of a step does not show what the step does
 
     @property
     def label(self):
@@ -86,6 +87,8 @@ class Curve:
         if max(self.residuals)[1] > ROUND_OFF * self.unit:
             return False
         coarsest = max(self.points, key=lambda p: p.run.step)
+        if self.kinked:  # forces that are constant between kinks leave the residual nothing to see
+            return None
         seen = self.of_state and (coarsest.error / max(1.0, coarsest.run.steps)) ** 2 > ROUND_OFF * self.unit
         return True if seen else None
 
@@ -219,7 +222,8 @@ def curves(experiment, case, work):
         out.append(Curve(method, experiment.declared_order(method, case), points,
                          sum(r.failed for g in groups for r in g), sum(map(len, groups)),
                          [(h, x) for h, x in residuals if not math.isnan(x)], UNIT_ROUND_OFF[case["precision"]],
-                         measure is None or measure.of_state, claims_structure(experiment, method, case), bool(case.get("structure"))))
+                         measure is None or measure.of_state, claims_structure(experiment, method, case), bool(case.get("structure")),
+                         bool(case.get("kinks"))))
     return out
 
 

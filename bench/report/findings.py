@@ -86,17 +86,17 @@ def sized(run, name, measure, rate):
     return run.method + (f" (at most {top})" if measure == "max" else "")
 
 
-def largest_setback(experiment, run, name, expected):
-    """The largest move of an invariant against its expected direction, over max(1, |I(0)|); nan without a series."""
+def largest_setback(experiment, case, run, name, expected):
+    """The largest move of an invariant against its expected direction, over its scale; nan without a series."""
     series = experiment.series(run, name)
-    return series.setbacks(expected)[-1] / max(1.0, abs(series.initial)) if series and series.time else math.nan
+    return series.setbacks(expected)[-1] / experiment.scale(case, name) if series and series.time else math.nan
 
 
 def setbacks(experiment, case, name, runs, at):
     """Findings on a quantity that is expected to move in one direction: who lets it move in the other."""
     expected = experiment.expectation(case, name)[0]
     direction, move = DIRECTIONS[expected]
-    sizes = {r.method: largest_setback(experiment, r, name, expected) for r in runs}
+    sizes = {r.method: largest_setback(experiment, case, r, name, expected) for r in runs}
     never = [m for m, x in sizes.items() if x <= limit(case)]
     does = [f"{m} (by {number(x)})" for m, x in sizes.items() if x > limit(case)]
     unknown = [m for m, x in sizes.items() if math.isnan(x)]

@@ -9,6 +9,7 @@ import dataclasses
 import math
 
 from curves import ranks
+from experiment import UNIT_ROUND_OFF
 from families import style
 from figures import Drawing, heading, sentences, with_unit
 from lines import Line, Panel, draw, in_grey
@@ -16,13 +17,14 @@ from scales import ErrorAxis, step_axis
 
 MEASURE = "frequency"  # whose table it draws
 STEADY = 1 / 3  # of the error, by which it may change from half to half
+ROUNDINGS = 64  # units of round-off of an angle over the time, below which nothing is known of an error
 
 
 @dataclasses.dataclass
 class Errors:
     steps: list = dataclasses.field(default_factory=list)
     errors: list = dataclasses.field(default_factory=list)  # without their signs
-    steadies: list = dataclasses.field(default_factory=list)  # whether the error is the same in both halves of the time
+    steadies: list = dataclasses.field(default_factory=list)  # whether the error is the same in both halves of the time, or rounding
 
     @property
     def steady(self):
@@ -33,14 +35,15 @@ def frequencies(experiment, case):
     """{vector: (rate of the solution, {method: Errors})}, in the experiment's order, from the largest step to the finest."""
     found = {}
     for _, cells in experiment.table(MEASURE, case):
-        step, rate, error, change = (cells[k] for k in ("step", "frequency", "error", "change"))
+        step, rate, error, change, time = (cells[k] for k in ("step", "frequency", "error", "change", "t"))
         if math.isnan(error):
             continue
         _, lines = found.setdefault(cells["vector"], (rate, {}))
         line = lines.setdefault(cells["method"], Errors())
         line.steps.append(step)
         line.errors.append(abs(error))
-        line.steadies.append(abs(change) <= STEADY * abs(error))
+        rounding = ROUNDINGS * UNIT_ROUND_OFF["double"] * (abs(rate) + 1 / time if time > 0 else abs(rate))  # angles are doubles
+        line.steadies.append(abs(change) <= STEADY * abs(error) or max(abs(change), abs(error)) <= rounding)
     for _, lines in found.values():
         for line in lines.values():
             order = sorted(range(len(line.steps)), key=lambda k: -line.steps[k])

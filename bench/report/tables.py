@@ -83,8 +83,8 @@ def overview(experiment):
             rows.append(("", [text(label), *(overview_cell(experiment, *cell) if cell else "–" for cell in cells)]))
     steps = ", ".join(f"{heading(c)}: {step_text(experiment.common_step(c), c)}" for c in experiment.cases)
     return table("<strong>At a glance.</strong> Class and size of the drift of each case's conserved quantity (of one "
-                 "that is expected to decrease or increase, its largest move in the other direction over "
-                 f"max(1, |I(0)|)), and the structure residual, at the step that most methods share ({text(steps)}).",
+                 "that is expected to decrease or increase, its largest move in the other direction over its "
+                 f"scale), and the structure residual, at the step that most methods share ({text(steps)}).",
                  columns, [rows])
 
 
@@ -95,7 +95,7 @@ def overview_cell(experiment, case, run):
     shown = []
     expected = experiment.expectation(case, name)[0] if name else ""
     if expected in DIRECTIONS:
-        shown = [f"{DIRECTIONS[expected][1]}s by {number(largest_setback(experiment, run, name, expected))}"]
+        shown = [f"{DIRECTIONS[expected][1]}s by {number(largest_setback(experiment, case, run, name, expected))}"]
     elif name:
         shown = [f"{text(run.drift_class(name))} {number(run.drift(name, 'max'))}".strip()]
     shown += [] if math.isnan(residual) else [f"<small>structure {number(residual)}</small>"]

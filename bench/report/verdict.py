@@ -131,7 +131,7 @@ class Verdict:
         if row.run and self.invariant:
             members = [r for r in self.experiment.ensemble_of(row.run) if not r.failed]
             row.drift_class, row.drifts = self.class_of(row.run)
-            sizes = [largest_setback(self.experiment, r, self.invariant, self.expected) if self.expected in DIRECTIONS else
+            sizes = [largest_setback(self.experiment, self.case, r, self.invariant, self.expected) if self.expected in DIRECTIONS else
                      r.drift(self.invariant, "max") for r in members]
             row.drift = math.nan if any(map(math.isnan, sizes)) else statistics.median(sizes)
             if self.expected in DIRECTIONS:  # a move against the direction, by more than round-off

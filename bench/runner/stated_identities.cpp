@@ -230,11 +230,13 @@ std::string not_conserved(const std::shared_ptr<const Model>& of, const Real& t,
     worst = std::max(worst, off);
   }
   if (count == 0) return {};
+  const std::string size =
+      std::isfinite(worst) ? formatted("%.2g of its terms", worst) : "a single term, and not zero";
   return "system " + model.name() + ": " + names +
          (count == 1 ? " is said to be conserved, but the motion changes it (its rate is "
                      : " are said to be conserved, but the motion changes them (a rate is ") +
-         formatted("%.2g", worst) +
-         " of its terms), so that the drift is not the method's alone; "
+         size +
+         "), so that the drift is not the method's alone; "
          "expected the behaviour free, decreasing or increasing";
 }
 

@@ -18,6 +18,13 @@ class InputError : public std::runtime_error {
   explicit InputError(std::string_view text) : std::runtime_error(on_one_line(text)) {}
 };
 
+/// What the code of a plug-in throws that is no error of this kind: wrong is the plug-in, whoever asks for
+/// it.
+class PluginError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
 /// Something went wrong while working (exit status 1), such as a disk that is full.
 class RunError : public std::runtime_error {
  public:
@@ -28,7 +35,7 @@ class RunError : public std::runtime_error {
 /// library's, its type. To be called in a catch clause only.
 std::string words_of_current_exception();
 
-/// Returns work(). What it throws, of whatever type, becomes an InputError that begins with `who`, the
+/// Returns work(). What it throws, of whatever type, becomes a PluginError that begins with `who`, the
 /// plug-in whose code is run; an InputError, a RunError and a lack of memory pass as they are.
 template <class Work>
 auto on_behalf_of(std::string_view who, Work&& work) {
@@ -41,7 +48,7 @@ auto on_behalf_of(std::string_view who, Work&& work) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {
-    throw InputError(std::string(who) + ": " + words_of_current_exception());
+    throw PluginError(std::string(who) + ": " + words_of_current_exception());
   }
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/facets/claims.hpp>
 #include <pfaff/core/facets/model.hpp>
 #include <pfaff/core/facets/stepper.hpp>
@@ -63,7 +64,7 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
       return called() + " keeps the constraints of a motion that an energy makes alone; " + model.name() +
              " has applied forces, which methods for vector fields take, beside a formulation of its "
              "constraints";
-    const std::string reason = objection(model);
+    const std::string reason = on_behalf_of("integrator " + called(), [&] { return objection(model); });
     return reason.empty() ? reason : called() + " " + reason;
   }
   /// True when the method can choose its steps (advance_to).

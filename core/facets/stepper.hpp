@@ -39,7 +39,8 @@ class Stepper {
   /// part; t and z are left where it got to, also where BudgetSpent is thrown between two steps. Where the
   /// state there is not finite, the status is non_finite, and t, z and the counted steps are as they were, as
   /// they are where a step throws.
-  /// InputError for a start at rest in zero without absolute tolerances.
+  /// InputError for a start at rest in zero without absolute tolerances, and of duals: what a chosen step
+  /// depends on has no derivatives.
   virtual Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) = 0;
   /// Drops history and compensation: the next step depends on its state alone.
   virtual void forget() = 0;
@@ -101,7 +102,8 @@ class SteppingOn final : public Stepper<Scalar<P>> {
   }
 
   Status advance_to(T& t, const T& end, const Tolerance<T>& tolerance, std::span<T> z) override {
-    if constexpr (requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
+    if constexpr (std::is_same_v<T, Value<T>> &&
+                  requires { method_.advance_to(problem_, t, end, tolerance, state_, *work_); }) {
       std::copy(z.begin(), z.end(), state_.begin());
       T reached = t;
       const auto steps = problem_.counters().steps;

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 import inspect
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from . import _pfaff
@@ -166,6 +166,7 @@ class Tracer:
         written = self.definition.invariants
         names: list[str] = []
         if not written:
+            self._check_described([])
             return [], None
 
         def values_by_name(known: dict[str, Any]) -> dict[str, Any]:
@@ -186,7 +187,17 @@ class Tracer:
 
         tape = self.recorded(self.n, results, f"invariants of {self.definition.what}")
         d = self.definition
+        self._check_described(names)
         return [(name, d.units.get(name, ""), d.behaviours.get(name, "conserved")) for name in names], tape
+
+    def _check_described(self, invariants: Sequence[str]) -> None:
+        """InputError where units or behaviours are those of a name that the system does not have."""
+        coordinates = [*self.coordinates.blocks, *self.coordinates.names]
+        for what, given, names in (("units", self.definition.units, [*coordinates, *invariants]), ("behaviours", self.definition.behaviours, invariants)):
+            for name in given:
+                if name not in names:
+                    kind = "coordinate or invariant" if what == "units" else "invariant"
+                    raise InputError(f"{self.definition.what}: {what}: {unknown(kind, name, names) if names else f'there is no invariant of which {name!r} could be the name'}")
 
     def initial(self) -> list[str]:
         """The initial state as texts; empty where there is none."""

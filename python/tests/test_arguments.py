@@ -238,6 +238,8 @@ def test_what_functions_and_dictionaries_give_is_refused_in_one_line(name):
     (lambda: pfaff.evaluate(duffing, ["x", 1]), "state q of duffing: expected a finite decimal number or a/b, got 'x'"),
     (lambda: duffing(alpha="x"), "parameter 'alpha' of duffing: expected a finite"),
     (lambda: of_system(units={"q": 3}), "units['q']: expected a text, got 3"),
+    (lambda: of_system(units={"x1": "m"}), "units: unknown coordinate or invariant 'x1'"),
+    (lambda: of_system(behaviours={"energy": "free"}), "behaviours: there is no invariant of which 'energy' could be the name"),
     (lambda: of_system(invariants={"one": lambda z: z}), "invariant one returned 2 results; expected 1"),
     (lambda: of_system(invariants={"one": 1}), "invariants['one']: expected a function, got 1"),
     (lambda: pfaff.compare({"case": 3}), "experiment: case: expected a list of dictionaries, got 3"),

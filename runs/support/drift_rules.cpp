@@ -263,10 +263,14 @@ Observed until_away_by(double limit, const Observed& observed) {
 
 /// A quantity that is lost levels off, for which no method deserves the word bounded. What it did before
 /// tells: up to where half of it was lost, and where that is no trend, as of a loss that slows down, up to
-/// where a tenth was.
+/// where a tenth was. What is on its way back at the end of the run was not lost.
 Verdict of_lost(Verdict verdict, const Facts& facts, const Observed& observed) {
   const std::string loses = told("loses %.3g %% of the quantity; ", 100 * facts.lost);
+  double farthest = 0;
+  for (const double mean : facts.means) farthest = std::max(farthest, std::abs(mean));
+  const bool comes_back = std::abs(facts.means.back()) < 0.85 * farthest;
   for (const auto& [share, words] : {std::pair{0.5, "until half of it "}, {0.1, "until a tenth of it "}}) {
+    if (comes_back) break;
     const Observed before = until_away_by(share * observed.round_off.own_range(), observed);
     if (before.series.samples < fewest_samples) continue;
     Facts early = facts_of(before);

@@ -44,34 +44,40 @@ bool is_conserved(const ModelSource& source) {
          !reads_time(given(Formula::poisson_tensor));
 }
 
-// The gradients of the results of a tape at the initial state, or at any other where there is none, and at a
-// state beside it: one behind the other.
-using Gradients = std::array<std::vector<Quad>, 2>;
-Gradients gradients_of(const Tape& tape, const ModelSource& source) {
-  Gradients gradients;
+// The slopes of the results of a tape at the initial state, or at any other where there is none, and at a
+// state beside it: one behind the other. Each derivative is multiplied by its coordinate, so that the slopes
+// do not depend on the units of coordinates, of which momenta may be 1e20 times as large as velocities.
+using Slopes = std::array<std::vector<Quad>, 2>;
+Slopes slopes_of(const Tape& tape, const ModelSource& source) {
+  Slopes slopes;
   Replay<Quad> replay(std::make_shared<const Tape>(jacobian_tape(tape)));
-  for (std::size_t place = 0; place < gradients.size(); ++place) {
+  for (std::size_t place = 0; place < slopes.size(); ++place) {
     std::vector<Quad> z;
     for (int k = 0; k < source.dimension; ++k) {
       const Quad x = source.initial.empty() ? Quad(2 * k + 3) / Quad(7)
                                             : source.initial[static_cast<std::size_t>(k)].quad();
-      z.push_back(x + Quad(static_cast<int>(place)) * (abs(x) + Quad(1)) / Quad(20 + k));
+      const Quad size = x == Quad(0) ? Quad(1) : Quad(abs(x));
+      z.push_back(x + Quad(static_cast<int>(place)) * size / Quad(20 + k));
     }
-    gradients[place].resize(tape.outputs.size() * z.size());
-    replay(Quad(0), z.data(), gradients[place].data());
+    slopes[place].resize(tape.outputs.size() * z.size());
+    replay(Quad(0), z.data(), slopes[place].data());
+    for (std::size_t k = 0; k < slopes[place].size(); ++k) slopes[place][k] *= z[k % z.size()];
   }
-  return gradients;
+  return slopes;
 }
 
+// Whether each part of one is the same multiple of that of the other, but for the rounding of both.
 bool parallel(std::span<const Quad> a, std::span<const Quad> b) {
   constexpr double rounding = 1e-25;
-  Quad aa(0), ab(0), bb(0);
+  const auto larger = [](const Quad& x, const Quad& y) { return abs(x) < abs(y); };
+  const auto largest = static_cast<std::size_t>(std::max_element(a.begin(), a.end(), larger) - a.begin());
+  const Quad of_a = a[largest], of_b = b[largest],
+             whole = abs(of_a * *std::max_element(b.begin(), b.end(), larger));
   for (std::size_t k = 0; k < a.size(); ++k) {
-    aa += a[k] * a[k];
-    ab += a[k] * b[k];
-    bb += b[k] * b[k];
+    const Quad one = a[k] * of_b, other = of_a * b[k];
+    if (abs(one - other) > Quad(rounding) * (abs(one) + abs(other)) + Quad(1e-30) * whole) return false;
   }
-  return abs(aa * bb - ab * ab) <= Quad(rounding) * aa * bb;
+  return true;
 }
 
 // Adds quantities that the author has not stated.
@@ -79,7 +85,7 @@ class Followed {
  public:
   explicit Followed(ModelSource& source) : source_(source) {
     if (const Tapes& stated = source.given[index(Formula::invariants)]; stated != nullptr)
-      stated_ = gradients_of(*stated, source);
+      stated_ = slopes_of(*stated, source);
   }
   void add(const Tapes& tape, std::size_t output, Invariant invariant) {
     const auto same_name = [&](const Invariant& one) { return one.name == invariant.name; };
@@ -95,7 +101,7 @@ class Followed {
   [[nodiscard]] bool is_stated(const Tape& tape, std::size_t output) const {
     if (stated_.front().empty()) return false;
     const auto n = static_cast<std::size_t>(source_.dimension);
-    const Gradients own = gradients_of(tape, source_);
+    const Slopes own = slopes_of(tape, source_);
     for (std::size_t k = 0; k * n < stated_.front().size(); ++k) {
       bool same = source_.invariants[k].behaviour == Behaviour::conserved;
       for (std::size_t place = 0; place < own.size(); ++place)
@@ -107,7 +113,7 @@ class Followed {
   }
 
   ModelSource& source_;
-  Gradients stated_;  // of the author's invariants
+  Slopes stated_;  // of the author's invariants
   std::vector<FollowedQuantity> added_;
 };
 }  // namespace

@@ -40,6 +40,11 @@ TEST(PluginFaults, WhatAFormulaThrows) {
   expect_refused(faulty_run("throws-while-recorded", "rk4"),
                  {"system throws-while-recorded", "field(t, z, rate)", "exception of type", "Odd"});
   expect_refused({"describe", "--plugin", faulty, "throws-while-recorded"}, {"throws-while-recorded", "Odd"});
+  const Outcome verified =
+      run_pfaff({"verify", "--plugin", faulty, "throws-while-recorded", "canonical", "lie-poisson"});
+  EXPECT_EQ(verified.status, 1) << verified.err;
+  EXPECT_EQ(verified.err, "");
+  EXPECT_NE(verified.out.find("NOT OK: 1 of "), std::string::npos) << verified.out;
   expect_complaint(
       behind_rows(run_pfaff(faulty_run("throws-when-compiled", "rk4"))), 1,
       {"integrator rk4", "system throws-when-compiled", "after t = 0.25", "no formula after a quarter"},
@@ -58,19 +63,27 @@ TEST(PluginFaults, WhatAStepThrows) {
   expect_complaint(behind_rows(run({"--time", "1", "--precision", "quad"})), 1,
                    {"integrator throws-late", "after t = 0.5"}, "a step in quad");
   // What one method throws is told of it, and another one is judged.
-  const Outcome verified =
-      run_pfaff({"verify", "--plugin", throws_late, "throws-late", "symplectic-euler", "--json"});
+  const Outcome verified = run_pfaff(
+      {"verify", "--plugin", throws_late, "throws-late", "throws-of-models", "symplectic-euler", "--json"});
   EXPECT_EQ(verified.status, 1);
   EXPECT_EQ(verified.err, "");
   const auto found = nlohmann::json::parse(verified.out);
-  int thrown = 0, judged = 0;
+  int thrown = 0, judged = 0, of_models = 0;
   for (const auto& check : found["checks"]) {
-    const bool of_it = check["plugin"].get<std::string>().starts_with("throws-late");
+    of_models += check["plugin"] == "throws-of-models" && check["result"] == "fail" &&
+                         check["reason"] == "integrator throws-of-models: no word of any model"
+                     ? 1
+                     : 0;
+    const bool of_it = check["plugin"].get<std::string>().starts_with("throws-");
     thrown += of_it && check["reason"].get<std::string>().find("Odd") != std::string::npos ? 1 : 0;
     judged += !of_it && check["result"] == "pass" ? 1 : 0;
   }
   EXPECT_GT(thrown, 0);
   EXPECT_GT(judged, 0);
+  EXPECT_EQ(of_models, 1);
+  expect_refused({"run", "--plugin", throws_late, "kepler", "throws-of-models", "--step", "0.1", "--time",
+                  "1", "--out", "-"},
+                 {"integrator throws-of-models", "no word of any model"});
   // The control: up to there the same method runs.
   const Outcome outcome = run({"--time", "0.375"});
   EXPECT_EQ(outcome.status, 0) << outcome.err;

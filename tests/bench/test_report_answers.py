@@ -135,6 +135,20 @@ class Constraints(Answers):
         self.edit("results.csv", "steps", lambda x: repr(float(x) / 2), lambda row: row[method] == "mild")  # which has a tolerance
         self.assertIn(" or the nearest that a method has, of 2 methods", self.said("constraints"))
 
+    def test_the_other_level_is_told_where_others_stay_on_it(self):
+        ensemble(self.folder)
+        rows = load(self.folder / "results.csv")
+        method = rows[0].index("method")
+        head = json.loads((self.folder / "experiment.json").read_text())
+        head["quantities"].append({**head["quantities"][-1], "name": "hidden-constraint"})
+        (self.folder / "experiment.json").write_text(json.dumps(head))
+        for hidden, told in (({"mild": "1e-16", "wild": "0.05"}, True), ({"mild": "0.01", "wild": "0.05"}, False)):
+            save(self.folder / "results.csv", [rows[0] + ["hidden-constraint:max", "hidden-constraint:class"]]
+                 + [row + [hidden[row[method]], "drifting"] for row in rows[1:]])
+            said = self.said("constraints")
+            self.assertIn("no method stays on the constraints; mild leaves", said)
+            self.assertEqual("; mild stays on the hidden constraints; wild leaves them, by 0.05" in said, told, said)
+
     def test_one_residual_is_no_comparison(self):
         ensemble(self.folder)
         self.edit("results.csv", "constraint:max", lambda x: "", lambda row: row[2] == "mild")

@@ -173,6 +173,15 @@ class Structure(unittest.TestCase):
         of_energy.of_state = False  # what an error of the energy says of a step is not known
         self.assertIs(of_energy.kept, None)
 
+    def test_between_kinks_a_residual_says_nothing(self):
+        """Where forces are constant between kinks the Jacobian of every explicit step is that of free motion."""
+        kinked = curve(power_law(4), residuals=[(0.1, 0.0), (0.05, 0.0)])
+        self.assertIs(kinked.kept, True)
+        kinked.kinked = True
+        self.assertIs(kinked.kept, None)
+        kinked.claims = True
+        self.assertIs(kinked.kept, True)
+
     def test_fills_of_marks(self):
         some = curve(power_law(4))
         self.assertEqual(some.fill, "half")

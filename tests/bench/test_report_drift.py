@@ -113,6 +113,22 @@ class Directed(Fresh):
         self.assertEqual(run(self.folder)[0], 0)
         self.assertIn("falls by 0.982", parsed(self.folder).text)
 
+    def test_what_moves_is_over_its_scale(self):
+        """An energy of 1e-19 J that rises by all of it rises by more than round-off."""
+        synthetic(self.folder, steps=(0.2, 0.1))
+        for path in self.folder.glob("runs/damped-*/series.csv"):
+            rows = load(path)
+            k = rows[0].index("energy [J]")
+            save(path, [rows[0]] + [row[:k] + [repr(1e-19 * (2 - float(row[k])))] + row[k + 1:] for row in rows[1:]])
+        for path in self.folder.glob("runs/damped-*/summary.json"):
+            written = json.loads(path.read_text())
+            for entry in written["invariants"]:
+                entry["scale"] = 1e-19
+            path.write_text(json.dumps(written))
+        shown = reading.Experiment(self.folder)
+        _, _, items = findings.drift(shown, shown.cases[1])[0]
+        self.assertEqual(items, ["rises: mid (by 0.982), rk (by 0.982) and bad (by 0.982)"])
+
     def test_the_error_of_what_falls_is_drawn(self):
         self.expect("decreasing")
         said = verdict.Verdict(self.shown, self.shown.cases[1])

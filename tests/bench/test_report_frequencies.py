@@ -29,6 +29,13 @@ class Frequencies(Fresh):
         self.assertNotIn("bad", lines)
         self.assertEqual(frequencies.frequencies(shown, shown.cases[1]), {})
 
+    def test_errors_of_rounding_are_steady(self):
+        """Angles are known to 1e-16, a rate over 40 s to a few 1e-18 and no better."""
+        shown = self.write([["osc", "bad", repr(h), "40", "still", "1e-20", "3e-19", "-2e-17"] for h in (0.4, 0.2)]
+                           + [["osc", "rk", "0.4", "40", "still", "1e-20", "3e-16", "-2e-15"]])
+        lines = frequencies.frequencies(shown, shown.cases[0])["still"][1]
+        self.assertEqual((lines["bad"].steady, lines["rk"].steady), (True, False))
+
     def test_the_page_says_whose_frequency_is_wrong(self):
         shown = self.write()
         drawing, = frequencies.drawings(verdict.Verdict(shown, shown.cases[0]))

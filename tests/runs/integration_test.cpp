@@ -338,5 +338,13 @@ TEST(Integration, RefusesWhatDoesNotFit) {
   expect_refused([&] { run.watch(notes, 0); }, "expected a whole number > 0");
 }
 
+TEST(Integration, OfNothingIsRefused) {
+  const std::shared_ptr<const MethodInstance> method = integrators().get("verlet", "integrator").make({});
+  EXPECT_THROW((void)integrate(std::shared_ptr<const Model>(), method, 0.1), InputError);
+  EXPECT_THROW(
+      (void)integrate("kepler", {}, "verlet", {}, {.step = "0.1", .block_rows = std::size_t{1} << 62}),
+      InputError);
+}
+
 }  // namespace
 }  // namespace pfaff

@@ -171,11 +171,14 @@ TEST(JudgedSteps, MethodsWithHistoryAreJudgedAfterTheirStart) {
   static const Method<Adams> vain{described("adams-called-5", 5)};
   for (const char* system : {"pendulum", "driven-duffing"}) {
     SCOPED_TRACE(system);
-    // None of them asks whether it goes on from where it ended, and each is told so.
-    EXPECT_EQ(bad_on(right, system), Names{"steps of another motion"});
-    EXPECT_EQ(bad_on(wrong, system), (Names{"order", "steps of another motion"}));
-    EXPECT_EQ(bad_on(adams, system), Names{"steps of another motion"});
-    EXPECT_EQ(bad_on(vain, system), (Names{"order", "steps of another motion"}));
+    // None of them asks whether it goes on from where it ended, by a step of the same size, and each is told
+    // so.
+    const Names trusting{"steps of another motion", "steps of another size"};
+    const Names low{"order", "steps of another motion", "steps of another size"};
+    EXPECT_EQ(bad_on(right, system), trusting);
+    EXPECT_EQ(bad_on(wrong, system), low);
+    EXPECT_EQ(bad_on(adams, system), trusting);
+    EXPECT_EQ(bad_on(vain, system), low);
   }
 }
 
@@ -216,7 +219,7 @@ TEST(JudgedSteps, HistoryIsMoreThanRoundOff) {
 TEST(JudgedSteps, AStructureThatCannotBeJudgedIsNotClaimed) {
   static const Method<Adams> claims{described("adams-claimed-symplectic", 4, {Claim::symplectic})};
   const auto checks = check_method(claims, {}, systems().get("pendulum", "system"));
-  EXPECT_EQ(bad(checks), (Names{"steps of another motion", "symplectic"}));
+  EXPECT_EQ(bad(checks), (Names{"steps of another motion", "steps of another size", "symplectic"}));
   for (const Check& check : checks) {
     if (check.claim != "symplectic") continue;
     EXPECT_NE(check.reason.find("remembers"), std::string::npos) << check.reason;

@@ -50,7 +50,7 @@ class Drawing {
         break;
       case SystemKind::concave_metriplectic:
         dimension(3);
-        recipe_.parts = {{squares(3)}, {squares(3) + more_terms(3, 3)}};
+        recipe_.parts = {{squares(3) + quartic(3)}, {squares(3) + more_terms(3, 3)}};
         break;
       case SystemKind::field:
       case SystemKind::skew_field:
@@ -128,6 +128,14 @@ class Drawing {
   }
   static SparsePolynomial oscillator(std::size_t variables) {
     return detail::half_square(variables, 0, variables);
+  }
+  // A fourth power, which is convex, and which methods that keep squares do not keep.
+  SparsePolynomial quartic(std::size_t variables) {
+    SparsePolynomial power(variables);
+    Powers powers(variables + 1);
+    powers[below(variables)] = 4;
+    power.add(powers, Real::fraction(1, 4));
+    return power;
   }
   // Half squares with unequal positive coefficients.
   SparsePolynomial squares(std::size_t variables) {

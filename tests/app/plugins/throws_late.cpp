@@ -1,4 +1,7 @@
-// An integrator that throws, and no std::exception, once the time is beyond 0.45.
+// Integrators that throw: no std::exception once the time is beyond 0.45, and where they are asked of a
+// model.
+#include <stdexcept>
+
 #include <pfaff/core/integrator.hpp>
 
 namespace {
@@ -22,4 +25,15 @@ const Method<ThrowsLate> throws_late{{.name = "throws-late",
                                       .reference = "hairer-lubich-wanner (I.1.5)",
                                       .order = 1,
                                       .preserves = {Claim::none}}};
+
+struct ThrowsOfModels : ThrowsLate {
+  [[nodiscard]] std::string refuses(const Model& /*model*/) const {
+    throw std::runtime_error("no word of any model");
+  }
+};
+const Method<ThrowsOfModels> throws_of_models{{.name = "throws-of-models",
+                                               .title = "throws where it is asked of a model",
+                                               .reference = "hairer-lubich-wanner (I.1.5)",
+                                               .order = 1,
+                                               .preserves = {Claim::none}}};
 }  // namespace
