@@ -108,6 +108,11 @@ TEST(FollowedQuantities, TheCasimirsOfABracket) {
       "coordinates = [\"x\", \"y\", \"z\"]\nhamiltonian = \"x^2 + 2*y^2 + 3*z^2\"\ninitial = [1, 2, 3]\n"
       "bracket = [[0, \"-z\", \"y\"], [\"z\", 0, \"-x\"], [\"-y\", \"x\", 0]]\n"
       "casimirs = [\"x^2 + y^2 + z^2\"]\n";
+  // In units in which momenta are 1e18 times as large as positions it is no function of another one either.
+  EXPECT_EQ(followed("name = \"planet\"\ncoordinates = [\"x\", \"y\", \"px\", \"py\"]\n"
+                     "initial = [1.47e11, 0, 0, 1.8e29]\nkinetic = \"(px^2 + py^2)/(2*5.97e24)\"\n"
+                     "potential = \"-7.92e44/sqrt(x^2 + y^2)\"\ninvariants = { turn = \"x*py - y*px\" }\n"),
+            "turn energy");
   EXPECT_EQ(followed(body), "energy casimir1");
   EXPECT_EQ(followed(body + "invariants = { length = \"sqrt(x^2 + y^2 + z^2)\" }\n"), "length energy");
 }
