@@ -25,6 +25,7 @@ int plot(const PlotOptions& options, bool json) {
                        "; expected the directory of a run");
   const auto experiment = take_experiment_of(directory, "pfaff plot");
   const DirectoryLock lock(directory, "pfaff plot");
+  check_undamaged(directory);
   const MadeFigures made = make_run_figures(directory, options.paper, options.coordinates);
   const std::filesystem::path figures = made.path.parent_path();
   const bool printed = !options.paper.kinds.empty();

@@ -183,23 +183,6 @@ nlohmann::json made_in(const std::filesystem::path& directory, const ResolvedRun
   return write_run(directory, resolved, attended.reference(), attended.progress(), &Interruption::stop());
 }
 
-// Refuses to replace what a directory holds, unless that is forced.
-void refuse_to_replace(const KeptRun& kept, const std::string& out) {
-  const std::string where = "output directory '" + out + "' holds ",
-                    longer = kept.longer.empty() ? "" : " that is longer, " + kept.longer;
-  if (kept.other)
-    throw InputError(where + "another run" + longer +
-                     "; expected a new directory, an empty one, the settings of that run, or --force to "
-                     "replace it");
-  if (!kept.known && !longer.empty())
-    throw InputError(
-        where + "a run" + longer +
-        ", whose config.toml cannot be read; expected a new directory, or --force to replace it");
-  if (kept.outdated())
-    throw InputError(where + "this run, but " + in_one_line(kept.changed) +
-                     "; expected a new directory, or --force to run it anew");
-}
-
 int run(const RunOptions& options, const Common& common) {
   const ResolvedRun resolved = resolved_run(options);
   const Measures measures = fitting_measures(options.measures, options.out, resolved);
@@ -213,7 +196,7 @@ int run(const RunOptions& options, const Common& common) {
   const auto held = take_output_directory(directory, "pfaff run", ours);
   const KeptRun kept = kept_run(directory, resolved);
   if (!options.force) {
-    refuse_to_replace(kept, options.out);
+    refuse_to_replace(kept, directory, "--force");
     refuse_files_of_others(directory, resolved, ours,
                            "a new directory, an empty one, or --force to replace it");
   }

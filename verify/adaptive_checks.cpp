@@ -71,7 +71,8 @@ std::string run_wrong(const MethodOnModel& on, const Stretch<T>& stretch, double
   const std::span<const T> z = run.state();
   for (std::size_t k = 0; k < z.size(); ++k) {
     difference = std::max(difference, abs(Quad(z[k]) - stretch.exact[k]));
-    size = std::max(size, abs(stretch.exact[k]));
+    // What has decayed is judged by what it was, to which a tolerance is relative.
+    size = std::max({size, Quad(abs(stretch.exact[k])), Quad(abs(Quad(stretch.start[k])) / Quad(8))});
     if (isnan(Quad(z[k]))) return "ended at a state that is not a number";
   }
   error = static_cast<double>(difference / size / Quad(tolerance));

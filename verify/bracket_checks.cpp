@@ -92,6 +92,14 @@ Region bracket_region(int n) {
   }
   return region;
 }
+// A number in a range: the same where it is there, or else as far from the end that is nearer to zero.
+Real brought_into(const Range& range, const Real& x) {
+  if (within(range, x.quad())) return x;
+  const auto [low, high] = range;
+  if (std::isfinite(high - low)) return Real(Quad(low)) + Real(Quad(high - low)) * x / (x + Real(1));
+  return high <= 0 ? Real(Quad(high)) - x : Real(Quad(low)) + x;
+}
+
 // That the Casimirs are ones, and that each has a slope near the first centre, without which it would be a
 // Casimir of every bracket.
 std::vector<Check> check_casimirs(const std::string& name, const Tape& tensor, const Tape& casimirs,
@@ -122,6 +130,8 @@ std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments&
   const auto tensor = tensor_of(*bracket.sharp, n);
   Region centre = bracket_region(n);
   centre.box = bracket.ranges;
+  for (std::vector<Real>& z : centre.centres)
+    for (std::size_t k = 0; k < centre.box.size(); ++k) z[k] = brought_into(centre.box[k], z[k]);
   centre = with_branches_of(*tensor, std::move(centre));
   std::vector<Check> checks;
   both(checks, plugin.name(), "sharp is linear", "", not_linear(*bracket.sharp, *tensor, n), centre);
@@ -135,7 +145,8 @@ std::vector<Check> check_bracket(const BracketPlugin& plugin, const Assignments&
     for (Check& check : check_not_negative(plugin.name(), "semimetric", "", tensor, centre))
       checks.push_back(std::move(check));
   if (bracket.casimirs != nullptr)
-    for (Check& check : check_casimirs(plugin.name(), *tensor, *bracket.casimirs, centre))
+    for (Check& check : check_casimirs(plugin.name(), *tensor, *bracket.casimirs,
+                                       with_branches_of(*bracket.casimirs, centre)))
       checks.push_back(std::move(check));
   for (Check& check : checks) check.parameters = parameters;
   return checks;

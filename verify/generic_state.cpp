@@ -128,6 +128,7 @@ Region region_of(const Model& motion, std::vector<Real> centre) {
   if (!motion.moves() || !is_short(motion)) return region;
   const Real t = generic_time_of(motion);
   const auto time = static_cast<double>(own_time(motion, t, region.centres.front()));
+  region.times.front() = t.value(), region.own_time = time;
   const int states = 1 + static_cast<int>(std::log2(own_times_followed(motion)));
   for (const double direction : {1.0, -1.0}) add_states(region, motion, t.value(), direction * time, states);
   return region;
@@ -137,7 +138,7 @@ Region with_branches_of(const Tape& formula, Region region) {
   constexpr double times = 4;
   const bool branches = std::any_of(formula.code.begin(), formula.code.end(),
                                     [](const Instruction& i) { return i.operation == Operation::select; });
-  if (!branches || !region.box.empty() || region.surface != nullptr) return region;
+  if (!branches || !region.box.empty()) return region;
   for (std::size_t k = 0; k < region.centres.front().size(); ++k) {
     double smallest = region.centres.front()[k].value(), largest = smallest;
     for (const std::vector<Real>& centre : region.centres) {
@@ -157,9 +158,15 @@ Region Region::first(std::size_t count) const {
   return region;
 }
 
-Region Region::with_zero() const {
+Region Region::of_elapsed_times() const {
   Region region(*this);
-  for (std::vector<Real>& centre : region.centres) centre.emplace_back(0);
+  region.own_time = own_time / 16;
+  for (std::size_t k = 0; k < region.centres.size(); ++k) {
+    region.centres[k].emplace_back(Quad(times[k]));
+    region.times[k] = k % 2 == 0 ? region.own_time : -region.own_time;
+  }
+  const auto [first, last] = std::minmax_element(times.begin(), times.end());
+  if (!box.empty()) region.box.push_back({*first, *last});
   return region;
 }
 

@@ -111,6 +111,8 @@ Check check_continuation(const MethodOnModel& on);
 Check check_changed_steps(const MethodOnModel& on);
 
 // run_checks.cpp
+/// True where the motion meets a kink of the field in a step from (z, t), or in one before or after it.
+bool near_a_kink(const MethodOnModel& on, const std::vector<Real>& z, const Real& t, const Real& h);
 /// The claims of the method in every step of runs of a thousand steps, or in sixteen of them where a claim
 /// needs the Jacobian of the step: at the step that is judged, at the largest that follows the motion and
 /// between; and in one step as large as converges in quad. Of a method without history also that every step

@@ -76,6 +76,7 @@ struct Region {
   Region(std::vector<Real> centre) : centres{std::move(centre)} {}  // NOLINT(google-explicit-constructor)
   std::vector<std::vector<Real>> centres;
   std::vector<double> times{1};          // near which they are drawn, that of a motion where it reaches them
+  double own_time = 1;                   // of the motion, in which times are drawn about those
   std::vector<Range> box{};              // a range for each coordinate; empty where no coordinate states one
   std::shared_ptr<const Tape> domain{};  // outputs without which a far state does not count; null: all count
   std::shared_ptr<const Model> surface{};  // on whose constraints states are brought; null: they stay
@@ -83,8 +84,9 @@ struct Region {
   [[nodiscard]] bool contains(std::span<const Quad> z) const;
   // The region in the first `count` coordinates.
   [[nodiscard]] Region first(std::size_t count) const;
-  // The region with one more coordinate, which is zero.
-  [[nodiscard]] Region with_zero() const;
+  // The region of an exact solution: with one more coordinate, the time at which the motion starts, and times
+  // that have elapsed since, a sixteenth of its own time to either side.
+  [[nodiscard]] Region of_elapsed_times() const;
 };
 
 /// Over how many times the system's own time checks follow a motion: 32, and four where the field takes more
@@ -94,7 +96,7 @@ int own_times_followed(const Model& motion);
 /// A state of a motion and the states that the motion reaches from there, forwards and backwards in time, up
 /// to own_times_followed, or until a coordinate has grown by eight. What holds near the initial state alone
 /// does not hold there. Of a field that is not short the first alone. The box is that of the ranges which
-/// coordinates state; a motion on constraints has none, since the states of a box are not on them.
+/// coordinates state; a motion on constraints has none, unless states are brought onto them.
 Region region_of(const Model& motion, std::vector<Real> centre);
 
 /// The region with a box about what the motion reaches, four times as large, where a formula has branches and
@@ -103,9 +105,9 @@ Region region_of(const Model& motion, std::vector<Real> centre);
 Region with_branches_of(const Tape& formula, Region region);
 
 // Random states near the centres of a region, drawn with a fixed seed. Near the first one each coordinate is
-// within 1/20 of its scale and the time near one; near the others within 1/20 or, of every other state, a
-// half of itself, so that it keeps its sign. The last ones are anywhere in the box, but near the first centre
-// in coordinates that state no range.
+// within 1/20 of its scale and the time within 1/20 of the motion's own; near the others within 1/20 or, of
+// every other state, a half of itself, so that it keeps its sign. The last ones are anywhere in the box, but
+// near the first centre in coordinates that state no range.
 template <class T>
 class NearbyStates {
  public:
@@ -116,8 +118,8 @@ class NearbyStates {
   }
   // True of a state near another centre than the first. It may lie outside the domain of a formula.
   [[nodiscard]] bool far() const { return far_; }
-  // The next state, in a buffer that the call after it overwrites; `time` is a time near one. Where a state
-  // cannot be brought onto the surface it is not-a-number and counts as far.
+  // The next state, in a buffer that the call after it overwrites, and its time. Where a state cannot be
+  // brought onto the surface, or is outside the box there, it is not-a-number and counts as far.
   const std::vector<T>& next(T& time) {
     const std::vector<T>& z = drawn(time);
     if (region_.surface != nullptr) far_ = !bring_onto(*region_.surface, time, z_) || far_;
@@ -127,11 +129,12 @@ class NearbyStates {
  private:
   // The coordinates of the surface, the first ones of the state, moved onto its constraints. Those of an
   // exact solution are a state at the time that stands behind them, and `time` is what has elapsed since.
-  static bool bring_onto(const Model& surface, const T& time, std::vector<T>& z) {
+  bool bring_onto(const Model& surface, const T& time, std::vector<T>& z) const {
     const auto n = static_cast<std::size_t>(surface.dimension());
     std::vector<Quad> x(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(n));
     const Quad at(z.size() > n ? z[n] : time);
-    const bool there = project_onto_constraints(surface, at, x).status == Status::converged;
+    const bool there =
+        project_onto_constraints(surface, at, x).status == Status::converged && region_.contains(x);
     for (std::size_t k = 0; k < x.size(); ++k)
       z[k] = there ? T(Real(x[k])) : std::numeric_limits<T>::quiet_NaN();
     return there;
@@ -147,7 +150,7 @@ class NearbyStates {
       z_[i] = T(centre[i]) + T(offset_(random_) * reach);
       if (i < region_.box.size()) z_[i] = inside(region_.box[i], T(centre[i]), z_[i]);
     }
-    time = T(region_.times[place] + offset_(random_));
+    time = T(region_.times[place] + offset_(random_) * region_.own_time);
     return z_;
   }
   const std::vector<T>& in_box(T& time) {
@@ -157,7 +160,10 @@ class NearbyStates {
       z_[i] = std::isfinite(largest - smallest) ? T(smallest) + T((share + 0.05) * 10) * T(largest - smallest)
                                                 : T(region_.centres.front()[i]) + T(share * scales_[i]);
     }
-    time = T(region_.times.front() + offset_(random_));
+    // A branch may begin at some time.
+    const auto [first, last] = std::minmax_element(region_.times.begin(), region_.times.end());
+    time =
+        T(*first + (offset_(random_) + 0.05) * 10 * (*last - *first) + offset_(random_) * region_.own_time);
     return z_;
   }
 
@@ -238,9 +244,10 @@ std::shared_ptr<const Tape> jacobiator(const Tape& tensor, int n);
 std::shared_ptr<const Tape> sharp_of_casimirs(const Tape& tensor, const Tape& casimirs);
 
 /// The third difference I(z + 3d) - 3 I(z + 2d) + 3 I(z + d) - I(z) of output k of a tape along a fixed
-/// direction d with unequal components: one number, zero where the output is a polynomial of degree two in
-/// the state.
-std::shared_ptr<const Tape> third_difference(const Tape& values, std::size_t k);
+/// direction d of unequal parts of the scales of coordinates: one number, zero where the output is a
+/// polynomial of degree two in the state.
+std::shared_ptr<const Tape> third_difference(const Tape& values, std::size_t k,
+                                             const std::vector<double>& scales);
 /// True where it is, at random states near the initial one; computed once for a model.
 bool is_quadratic(const std::shared_ptr<const Model>& model, std::size_t invariant);
 

@@ -12,14 +12,14 @@ std::vector<Check> check_reversal(const std::string& name, const Model& motion, 
     const auto back = evaluate(*reversal, t, evaluate(*reversal, t, z));
     for (std::size_t k = 0; k < z.size(); ++k) out[k] = back[k] - z[k];
   });
-  both(checks, name, "reversal is an involution", name, twice, region);
+  both(checks, name, "reversal is an involution", name, twice, with_branches_of(*twice, region));
   const auto turned = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto rate = evaluate(*field, t, z);
     const auto carried = directional_derivative(*reversal, t, Recorded(0), z, rate);
     const auto there = evaluate(*field, -t, evaluate(*reversal, t, z));
     for (std::size_t k = 0; k < z.size(); ++k) out[k] = carried[k] + there[k];
   });
-  both(checks, name, "reversal turns the field", name, turned, region);
+  both(checks, name, "reversal turns the field", name, turned, with_branches_of(*turned, region));
   return checks;
 }
 

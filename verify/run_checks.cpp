@@ -16,6 +16,21 @@
 
 namespace pfaff {
 
+bool near_a_kink(const MethodOnModel& on, const std::vector<Real>& z, const Real& t, const Real& h) {
+  const std::shared_ptr<const Model> motion = motion_of(on.model());
+  std::vector<Quad> start;
+  for (const Real& x : z) start.push_back(x.quad());
+  const auto kinks = [&](const Quad& elapsed) {
+    std::vector<Quad> moved = start;
+    return short_flow(*motion, t.quad(), elapsed, moved);
+  };
+  try {
+    return kinks(-h.quad()) > 0 || kinks(Quad(2) * h.quad()) > 0;
+  } catch (const SolutionEnds&) {  // as where the motion stays at a jump
+    return !Kinks<Quad>(*motion->tape(Formula::field)).none();
+  }
+}
+
 namespace {
 
 constexpr int steps_of_run = 1000, looks = 16;
@@ -78,22 +93,6 @@ bool follows_the_motion(const MethodOnModel& on, const Place& place, const Real&
   MeasuredStep<double> step(on.method(), on.model(), place.z, place.t, h);
   const auto halves = step.after(step.t(), step.h() / 2, step.start(), 2);
   return step.end() && halves && relative_difference<double>(*halves, *step.end()) <= most_rough;
-}
-
-// True where the motion meets a kink of the field in a step from a place, or in one before or after it.
-bool near_a_kink(const MethodOnModel& on, const Place& place, const Real& h) {
-  const std::shared_ptr<const Model> motion = motion_of(on.model());
-  std::vector<Quad> start;
-  for (const Real& x : place.z) start.push_back(x.quad());
-  const auto kinks = [&](const Quad& elapsed) {
-    std::vector<Quad> z = start;
-    return short_flow(*motion, place.t.quad(), elapsed, z);
-  };
-  try {
-    return kinks(-h.quad()) > 0 || kinks(Quad(2) * h.quad()) > 0;
-  } catch (const SolutionEnds&) {  // as where the motion stays at a jump
-    return !Kinks<Quad>(*motion->tape(Formula::field)).none();
-  }
 }
 
 // A place of a run in double on its constraints in quad, where there are any: off them by a rounding in
@@ -242,7 +241,7 @@ Check judged(const MethodOnModel& on, const ClaimCheck& row, const Real& h, cons
     // The equations of an implicit step that is long, or near a kink of the field, may have several
     // solutions, of which the step back finds another.
     if (lost && h != on.step_size() && !follows_the_motion(on, place, h)) continue;
-    if (lost && leads_back(row.claim) && near_a_kink(on, place, h)) continue;
+    if (lost && leads_back(row.claim) && near_a_kink(on, place.z, place.t, h)) continue;
     check.measured = std::max(check.measured, residual);
     if (!lost) continue;
     double falls = most_in_quad(residual);

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include <pfaff/core/facets/stated_ranges.hpp>
 #include <pfaff/core/formulation.hpp>
 #include <pfaff/core/tape/derivatives.hpp>
 #include <pfaff/core/tape/replay.hpp>
@@ -52,7 +53,7 @@ Check varies(const std::string& system, const std::string& invariant,
     Quad time;
     const std::vector<Quad>& z = states.next(time);
     // At one time, since an invariant may depend on it.
-    replay(W(Quad(1)), std::vector<W>(z.begin(), z.end()).data(), out.data());
+    replay(W(Quad(region.times.front())), std::vector<W>(z.begin(), z.end()).data(), out.data());
     if (!isfinite(out[k].value)) continue;
     if (!first) first = out[k];
     largest = std::max(largest, relative_to_rounding(out[k] - *first));
@@ -102,7 +103,8 @@ void invariants(std::vector<Check>& checks, const std::string& name, FollowedMot
       if (std::find(redundant.begin(), redundant.end(), list[k].name) == redundant.end())
         checks.push_back(varies(name, list[k].name, values, k, region));
       if (list[k].quadratic)
-        both(checks, name, list[k].name + " is quadratic", name, third_difference(*values, k), region);
+        both(checks, name, list[k].name + " is quadratic", name,
+             third_difference(*values, k, coordinate_scales(model.initial())), region);
       both(checks, name, "conserves " + list[k].name, name, rate, with_branches_of(*rate, region));
     } else if (list[k].behaviour == Behaviour::decreasing || list[k].behaviour == Behaviour::increasing) {
       const bool falls = list[k].behaviour == Behaviour::decreasing;
@@ -180,7 +182,7 @@ void exact_solution(std::vector<Check>& checks, const std::string& name, const M
       out[size + k] = start[k] - z[k];
     }
   });
-  both(checks, name, "exact solution", name, defect, region.with_zero());
+  both(checks, name, "exact solution", name, defect, with_branches_of(*defect, region).of_elapsed_times());
   if (!is_short(model)) return;
   // Far above what Taylor steps in quad leave over a few of the system's own times, and far below a jump.
   constexpr double most_apart = 1e-20;
@@ -194,13 +196,15 @@ void darboux(std::vector<Check>& checks, const std::string& name, const Model& m
   const int n = model.dimension();
   const auto size = static_cast<std::size_t>(n);
   const auto chart = model.tape(Formula::chart), inverse = model.tape(Formula::chart_inverse);
-  both(checks, name, "chart is Darboux", name, darboux_residual(*chart, *model.tape(Formula::structure)),
-       region);
+  const auto judged = [&](const char* claim, const std::shared_ptr<const Tape>& residual) {
+    both(checks, name, claim, name, residual, with_branches_of(*residual, region));
+  };
+  judged("chart is Darboux", darboux_residual(*chart, *model.tape(Formula::structure)));
   const auto round_trip = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
     const auto back = evaluate(*inverse, t, evaluate(*chart, t, z));
     for (std::size_t k = 0; k < size; ++k) out[k] = back[k] - z[k];
   });
-  both(checks, name, "chart inverse", name, round_trip, region);
+  judged("chart inverse", round_trip);
   // The chart carries the field X of the system into the field of the chart: Y_z X + Y_t.
   const auto field = model.tape(Formula::field), in_chart = model.tape(Formula::chart_field);
   const auto carried = expression(n, n, [&](const Recorded& t, Arguments z, Results out) {
@@ -209,7 +213,7 @@ void darboux(std::vector<Check>& checks, const std::string& name, const Model& m
     const auto y = evaluate(*in_chart, t, evaluate(*chart, t, z));
     for (std::size_t k = 0; k < size; ++k) out[k] = moved[k] - y[k];
   });
-  both(checks, name, "field in the chart", name, carried, region);
+  judged("field in the chart", carried);
 }
 
 // The field made from T + V and the rate of friction agrees with the field of the system.
@@ -222,7 +226,7 @@ void conformal(std::vector<Check>& checks, const std::string& name, const Model&
         const auto a = evaluate(*field, t, z), b = evaluate(damped, t, z);
         for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
       });
-  both(checks, name, "field of the damped energies", name, difference, region);
+  both(checks, name, "field of the damped energies", name, difference, with_branches_of(*difference, region));
 }
 
 }  // namespace
@@ -244,11 +248,13 @@ std::vector<Check> check_system(const std::string& name, const std::shared_ptr<c
   if (model->facets().has(Facet::hamiltonian) || model->facets().has(Facet::structure) ||
       model->given(Formula::poisson_tensor)) {
     const auto tensor = model->tape(Formula::poisson_tensor);
-    both(checks, name, "bracket is skew", name, symmetric_part(*tensor, n), region);
-    both(checks, name, "Jacobi identity", name, jacobiator(*tensor, n), region);
+    const auto judged = [&](const char* claim, const std::shared_ptr<const Tape>& residual) {
+      both(checks, name, claim, name, residual, with_branches_of(*residual, region));
+    };
+    judged("bracket is skew", symmetric_part(*tensor, n));
+    judged("Jacobi identity", jacobiator(*tensor, n));
     if (model->given(Formula::casimirs))
-      both(checks, name, "Casimirs", name, sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)),
-           region);
+      judged("Casimirs", sharp_of_casimirs(*tensor, *model->tape(Formula::casimirs)));
   }
   if (model->facets().has(Facet::structure)) {
     for (Check& check : check_self_adjointness(name, *model)) checks.push_back(std::move(check));
@@ -266,7 +272,10 @@ std::vector<Check> check_system(const std::string& name, const std::shared_ptr<c
   if (model->facets().has(Facet::metriplectic))
     for (Check& check : check_metriplectic(name, *model)) checks.push_back(std::move(check));
   Region on_surface = region;
-  if (model->restricted()) on_surface.surface = model;
+  if (model->restricted()) {
+    on_surface.surface = model;
+    on_surface.box = stated_ranges(model->coordinates());
+  }
   FollowedMotion followed(motion, on_surface);
   if (model->given(Formula::friction)) friction(checks, name, *model, followed);
   invariants(checks, name, followed);

@@ -110,7 +110,8 @@ void execute_fixed(const ResolvedRun& run, Observing<T>& observing, RunRecord& r
 // budget ends has taken more steps than any number of samples needs, or the run ends at once, too.
 template <class T>
 int sample_intervals(const ResolvedRun& run) {
-  const Budget budget({.steps = run.settings.step_budget});
+  constexpr std::int64_t enough = 8 * (std::int64_t{most_intervals} + 1);
+  const Budget budget({.steps = std::min(run.settings.step_budget, enough)});
   Integration<T> trial(start_of<T>(run));
   try {
     (void)trial.to(T(run.t0) + T(run.time));

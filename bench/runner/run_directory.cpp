@@ -113,27 +113,41 @@ void refuse_files_of_others(const fs::path& directory, const ResolvedRun& run,
       expected);
 }
 
+RunFiles::RunFiles(fs::path directory, const ResolvedRun& run, std::vector<FileOfRun> beside)
+    : directory_(std::move(directory)),
+      beside_(std::move(beside)),
+      series_(run, [this](std::string_view rows) { take(rows); }) {}
+
+void RunFiles::take(std::string_view rows) {
+  if (!rows_) {
+    std::error_code error;
+    fs::remove(directory_ / summary_name, error);
+    for (const FileOfRun& file : beside_)
+      if (file.text.empty()) {
+        fs::remove(directory_ / file.name, error);
+      } else {
+        write_file(directory_ / file.name, file.text);
+      }
+    rows_.emplace(directory_ / series_name);
+  }
+  rows_->take(rows);
+}
+
+nlohmann::json RunFiles::finish(nlohmann::json summary) {
+  series_.finish();
+  rows_->finish();
+  const auto config = std::find_if(beside_.begin(), beside_.end(),
+                                   [](const FileOfRun& file) { return file.name == config_name; });
+  summary[checksum_key] = checksum(config == beside_.end() ? "" : config->text, rows_->checksum(), summary);
+  write_file(directory_ / summary_name, text_of(summary));
+  return summary;
+}
+
 nlohmann::json write_run(const fs::path& directory, const ResolvedRun& run,
                          const ReferenceSolution* reference, const Progress& progress,
                          const std::atomic<bool>* stop) {
-  const std::string config = config_text(run);
-  std::optional<RowFile> file;
-  SeriesWriter series(run, [&](std::string_view rows) {
-    if (!file) {  // what is replaced stays until there is something in its place
-      std::error_code error;
-      fs::remove(directory / summary_name, error);
-      write_file(directory / config_name, config);
-      file.emplace(directory / series_name);
-    }
-    file->take(rows);
-  });
-  const RunRecord record = execute(run, reference, progress, stop, &series);
-  series.finish();
-  file->finish();
-  nlohmann::json j = summary(run, record);
-  j[checksum_key] = checksum(config, file->checksum(), j);
-  write_file(directory / summary_name, text_of(j));
-  return j;
+  RunFiles files(directory, run, {{config_name, config_text(run)}});
+  return files.finish(summary(run, execute(run, reference, progress, stop, &files.series())));
 }
 
 KeptRun kept_run(const fs::path& directory, const ResolvedRun& run) {
@@ -157,6 +171,30 @@ KeptRun kept_run(const fs::path& directory, const ResolvedRun& run) {
   kept.whole = !summary.is_null() && summary.value("status", "interrupted") != "interrupted";
   if (kept.whole) kept.summary = std::move(summary);
   return kept;
+}
+
+void refuse_to_replace(const KeptRun& kept, const fs::path& directory, const std::string& force) {
+  const std::string where = "output directory '" + directory.string() + "' holds ",
+                    longer = kept.longer.empty() ? "" : " that is longer, " + kept.longer;
+  if (kept.other)
+    throw InputError(where + "another run" + longer +
+                     "; expected a new directory, an empty one, the settings of that run, or " + force +
+                     " to replace it");
+  if (!kept.known && !longer.empty())
+    throw InputError(where + "a run" + longer +
+                     ", of which no config.toml says what it is; expected a new directory, or " + force +
+                     " to replace it");
+  if (kept.outdated())
+    throw InputError(where + "this run, but " + in_one_line(kept.changed) +
+                     "; expected a new directory, or " + force + " to run it anew");
+}
+
+void check_undamaged(const fs::path& directory) {
+  const std::string config = text_in(directory / config_name).value_or("");
+  if (verified_summary(directory, config, read_series(directory / series_name)).is_null())
+    throw InputError("'" + directory.string() +
+                     "' holds files that are not as a run has left them, of which one was changed or cut; "
+                     "expected the directory of a run, to be made anew");
 }
 
 }  // namespace pfaff

@@ -32,7 +32,7 @@ def name_of(function: Callable[[Any], Any]) -> str:
 
 def asked_run(
     system: Any, method: Any, *, step: Any, tolerance: Any, time: Any, every: Any, initial: Any, initial_velocities: Any, t0: Any, absolute: Any,
-    precision: Any, reference: Any, measures: Sequence[Any], structure: Any, project_initial: Any, allow_inconsistent: Any, formulation: Any, out: Any
+    precision: Any, reference: Any, measures: Sequence[Any], structure: Any, project_initial: Any, allow_inconsistent: Any, formulation: Any, out: Any, force: Any
 ) -> dict[str, Any]:
     """The arguments of pfaff.run. InputError for those of the wrong kind."""
     folder = "" if out is None else path(out, "out")
@@ -52,6 +52,7 @@ def asked_run(
         "allow_inconsistent": yes_or_no(allow_inconsistent, "allow_inconsistent"),
         "formulation": "" if formulation is None else text(formulation, "formulation", "the name of a formulation"),
         "out": folder,
+        "force": yes_or_no(force, "force"),
         **_written_as(system, method, folder),
     }
 

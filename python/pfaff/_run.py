@@ -257,7 +257,7 @@ class Unavailable:
 
 def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, time: Any = None, every: int = 0, initial: Any = None, initial_velocities: Any = None, t0: Any = 0,
         absolute: Any = (), precision: str = "double", reference: str | None = "exact", measures: Sequence[str | Callable[[Run], Any]] = (), structure: bool = True,
-        project_initial: bool = False, allow_inconsistent: bool = False, formulation: str | None = None, out: Any = None, system_parameters: Mapping[str, Any] | None = None,
+        project_initial: bool = False, allow_inconsistent: bool = False, formulation: str | None = None, out: Any = None, force: bool = False, system_parameters: Mapping[str, Any] | None = None,
         method_parameters: Mapping[str, Any] | None = None, **parameters: Any) -> Run:
     """Runs a method on a system, and measures what drifts and what it costs, as `pfaff run` does.
 
@@ -290,7 +290,8 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
             such as "lmm(friction-form=metriplectic)"; without it the usual one.
         out: a directory in which the samples, series.csv, and the summary, summary.json, are left; with a registered
             method also what `pfaff run --config` makes the run again from, config.toml, and a system written in
-            Python as the text model system.toml.
+            Python as the text model system.toml. A directory that holds another run, or a longer one, is refused
+            unless `force` is true, which replaces it.
         system_parameters, method_parameters: dictionaries, where both know a name.
         **parameters: of the system or the method, by their names.
 
@@ -314,7 +315,7 @@ def run(system: Any, method: Any, *, step: Any = None, tolerance: Any = None, ti
     asked = asked_run(
         base, tool, step=step, tolerance=tolerance, time=time, every=every, initial=initial, initial_velocities=initial_velocities, t0=t0,
         absolute=absolute, precision=precision, reference=reference, measures=wanted, structure=structure, project_initial=project_initial,
-        allow_inconsistent=allow_inconsistent, formulation=formulation, out=out)
+        allow_inconsistent=allow_inconsistent, formulation=formulation, out=out, force=force)
     going = _pfaff.RunInProgress(base.model, tool.instance, asked)
     if going.not_conserved:
         warnings.warn(going.not_conserved, InvariantWarning, stacklevel=2)

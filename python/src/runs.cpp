@@ -10,14 +10,15 @@
 #include <optional>
 #include <vector>
 
+#include <pfaff/bench/experiment/experiment_directory.hpp>
 #include <pfaff/bench/runner/config_file.hpp>
 #include <pfaff/bench/runner/files.hpp>
 #include <pfaff/bench/runner/measure_tables.hpp>
 #include <pfaff/bench/runner/record.hpp>
-#include <pfaff/bench/runner/row_file.hpp>
 #include <pfaff/bench/runner/run_directory.hpp>
 #include <pfaff/bench/runner/settings.hpp>
 #include <pfaff/core/facets/tile_rows.hpp>
+#include <pfaff/core/process/checksum.hpp>
 #include <pfaff/python/src/arrays.hpp>
 #include <pfaff/python/src/bindings.hpp>
 #include <pfaff/python/src/interruption.hpp>
@@ -95,49 +96,45 @@ class Columns final : public SampleTaker {
   }
 };
 
-// The samples and the summary in a directory of the user's. Where system and method have names or can be
-// written as text, a config.toml says how to make them again: systems written in Python are left beside it.
+// What the settings of a run that stands in a directory call its system and its method, both empty where one
+// of them has no name; and the text of a system that is written in Python, which stands beside them.
 struct WrittenAs {
   std::string system, integrator, system_text;
 };
+
+// A directory of the user's in which the files of a run are left.
 class Files {
  public:
-  Files(const ResolvedRun& run, const std::filesystem::path& directory, const WrittenAs& written)
-      : directory_(directory),
-        lock_(taken(run, directory)),
-        rows_(directory / "series.csv"),
-        series_(run, [this](std::string_view rows) { rows_.take(rows); }) {
-    if (written.system.empty()) return;
-    if (!written.system_text.empty()) write_file(directory_ / system_name, written.system_text);
-    ResolvedRun named = run;
-    named.settings.system = written.system, named.settings.integrator = written.integrator;
-    write_file(directory_ / "config.toml", config_text(named));
-  }
-  static constexpr const char* system_name = "system.toml";
-  [[nodiscard]] SampleTaker& series() { return series_; }
-  void finish(const nlohmann::json& summary) {
-    series_.finish();
-    rows_.finish();
-    write_file(directory_ / "summary.json", summary.dump(1) + "\n");
-  }
+  Files(const ResolvedRun& run, const std::filesystem::path& directory, const WrittenAs& written, bool force)
+      : experiment_(take_experiment_of(directory, "pfaff.run")),
+        lock_(take_output_directory(directory, "pfaff.run", names())),
+        files_(directory, run, beside(run, directory, written, force)) {}
+  [[nodiscard]] SampleTaker& series() { return files_.series(); }
+  void finish(const nlohmann::json& summary) { files_.finish(summary); }
 
  private:
-  static std::unique_ptr<DirectoryLock> taken(const ResolvedRun& run,
-                                              const std::filesystem::path& directory) {
-    auto lock = take_output_directory(directory, "pfaff.run", names());
-    refuse_files_of_others(directory, run, names(), "a new directory or an empty one");
-    return lock;
-  }
+  static constexpr const char *config_name = "config.toml", *system_name = "system.toml";
   static std::vector<std::string> names() {
     std::vector<std::string> names = run_file_names();
     names.emplace_back(system_name);
     return names;
   }
+  // The files beside the series. InputError where the directory holds what they may not replace.
+  static std::vector<FileOfRun> beside(const ResolvedRun& run, const std::filesystem::path& directory,
+                                       const WrittenAs& written, bool force) {
+    ResolvedRun named = run;
+    named.settings.system = written.system, named.settings.integrator = written.integrator;
+    if (!written.system_text.empty()) add_file(named.origins, written.system, sha1_of(written.system_text));
+    if (!force) {
+      refuse_to_replace(kept_run(directory, named), directory, "force=True");
+      refuse_files_of_others(directory, named, names(), "a new directory or an empty one");
+    }
+    return {{config_name, written.system.empty() ? "" : config_text(named)},
+            {system_name, written.system_text}};
+  }
 
-  std::filesystem::path directory_;
-  std::unique_ptr<DirectoryLock> lock_;
-  RowFile rows_;
-  SeriesWriter series_;  // the last, since its end passes on rows that are left
+  std::unique_ptr<DirectoryLock> experiment_, lock_;
+  RunFiles files_;
 };
 
 RunSettings settings_of(const PySystem& system, const PyMethod& method, const py::dict& asked) {
@@ -180,6 +177,7 @@ class RunInProgress {
       : run_(without_lock([settings = settings_of(system, method, asked)] { return resolve(settings); })),
         measures_(measures_asked_for(asked["measures"].cast<std::vector<std::string>>())),
         out_(asked["out"].cast<std::string>()),
+        force_(asked["force"].cast<bool>()),
         written_{asked["system"].cast<std::string>(), asked["integrator"].cast<std::string>(),
                  asked["system_text"].cast<std::string>()} {
     for (const auto& measure : measures_)
@@ -195,7 +193,7 @@ class RunInProgress {
       std::optional<Files> files;
       if (!run_.adaptive())
         columns_.reserve(static_cast<std::size_t>(std::min(run_.rows(), most_reserved) + 1), *run_.model);
-      if (!out_.empty()) columns_.also = &files.emplace(run_, out_, written_).series();
+      if (!out_.empty()) columns_.also = &files.emplace(run_, out_, written_, force_).series();
       record_ = pfaff::execute(run_, reference.get(), {}, &interruption.stop(), &columns_);
       if (files) files->finish(summary(run_, *record_));
       if (!record_->interrupted && !measures_.empty())
@@ -318,6 +316,7 @@ class RunInProgress {
   ResolvedRun run_;
   Measures measures_;
   std::string out_;    // the directory in which files are left; or empty
+  bool force_;         // replaces what that holds of another run
   WrittenAs written_;  // what its config.toml calls system and method
   Columns columns_;
   std::optional<RunRecord> record_;

@@ -55,7 +55,7 @@ STEPPED = {"system": (), "method": (), "step": NUMBER | {"nothing"}, "initial": 
 CALLS = {
     "run": (pfaff.run, {"system": duffing, "method": "verlet", "step": 0.1, "time": 1}, {
         **STEPPED, "time": NUMBER, "every": {"number"}, "initial_velocities": {"nothing"}, "reference": {"nothing"}, "measures": {"empty", "empty text", "function"}, "structure": {"truth"},
-        "project_initial": {"truth"}, "allow_inconsistent": {"truth"}, "out": {"nothing", "text"}}),
+        "project_initial": {"truth"}, "allow_inconsistent": {"truth"}, "out": {"nothing", "text"}, "force": {"truth"}}),
     "Integration": (pfaff.Integration, {"system": duffing, "method": "verlet", "step": 0.1}, STEPPED),
     "Integration.steps": (lambda **k: integration().steps(**k), {"n": 2}, {"n": {"number"}, "every": {"number"}}),
     "Integration.to": (lambda **k: integration().to(**k), {"t": 1}, {"t": NUMBER, "every": {"number"}}),

@@ -1,5 +1,8 @@
 """Runs: samples, drift, errors and measures, and what is left where a run ends early."""
+import json
 import math
+import subprocess
+import sys
 import tomllib
 
 import numpy as np
@@ -223,6 +226,58 @@ def test_out_leaves_what_the_run_is_made_again_from(tmp_path):
 
     pfaff.run(quartic, kick, step=0.05, time=1, out=tmp_path / "method")
     assert not (tmp_path / "method" / "config.toml").exists()
+    assert tomllib.loads((tmp_path / "traced" / "config.toml").read_text(encoding="utf-8"))["files"]  # a changed system.toml is seen
+
+
+def test_out_is_not_replaced_unasked(tmp_path):
+    """Neither another run nor a longer one; and of what is replaced nothing stays beside the new series."""
+    @pfaff.system(coordinates=["q", "p"], initial=[0.5, 0.1], name="quartic")
+    def quartic(q, p):
+        return p**2 / 2 + q**4 / 4
+
+    def names(folder):
+        return sorted(one.name for one in folder.iterdir() if one.name != ".lock")
+
+    out = tmp_path / "out"
+    pfaff.run(quartic, "verlet", step="0.05", time=10, out=out)
+    before = (out / "series.csv").read_bytes()
+    for call, words in ((lambda **more: pfaff.run("kepler", "verlet", step=0.05, time=1, out=out, **more), "holds another run that is longer, 201 rows"),
+                        (lambda **more: pfaff.run(quartic, "verlet", step="0.05", time=1, out=out, **more), "longer, 201 rows"),
+                        (lambda **more: pfaff.run(quartic, kick, step=0.05, time=1, out=out, **more), "longer, 201 rows")):
+        with pytest.raises(pfaff.InputError, match=words + ".*force=True"):
+            call()
+        assert (out / "series.csv").read_bytes() == before
+    assert names(out) == ["config.toml", "series.csv", "summary.json", "system.toml"]
+    pfaff.run(quartic, kick, step=0.05, time=1, out=out, force=True)
+    assert names(out) == ["series.csv", "summary.json"]
+
+    @pfaff.method(order=1, traced=False)
+    def falling(problem, t, h, z):
+        if t > 0.5:
+            raise RuntimeError("fell")
+        return z + h * problem.field(t, z)
+
+    with pytest.raises(RuntimeError, match="fell"):
+        pfaff.run(quartic, falling, step=0.05, time=1, every=1, out=out, force=True)
+    assert names(out) in (["series.csv"], ["series.csv", "summary.json"])
+    if (out / "summary.json").exists():
+        assert json.loads((out / "summary.json").read_text(encoding="utf-8"))["integrator"] == "falling"
+
+
+def test_a_run_of_an_experiment_that_goes_on_is_left_alone(tmp_path):
+    folder = tmp_path / "experiment" / "runs" / "one"
+    folder.mkdir(parents=True)
+    (tmp_path / "experiment" / "experiment.json").write_text("{}")
+    held = subprocess.Popen([sys.executable, "-c", "import fcntl, sys, time; file = open(sys.argv[1], 'w'); fcntl.flock(file, fcntl.LOCK_EX); print('held', flush=True); time.sleep(60)",
+                             str(tmp_path / "experiment" / ".lock")], stdout=subprocess.PIPE)
+    try:
+        assert held.stdout.readline() == b"held\n"
+        with pytest.raises(pfaff.InputError, match="in use"):
+            pfaff.run("kepler", "verlet", step=0.1, time=1, out=folder)
+    finally:
+        held.kill()
+        held.wait()
+    pfaff.run("kepler", "verlet", step=0.1, time=1, out=folder)
 
 
 @pytest.mark.parametrize("size, rate, words", [(1.1, 1, "does not begin at the state that it is asked for: q is 1.1 instead of 1"),

@@ -46,6 +46,10 @@ TEST(Figures, OfARunSayWhatTheyShow) {
       << j["sentence"];
   EXPECT_TRUE(fs::exists(fs::path(j["figures"].get<std::string>()) / "motion.pdf"));
   EXPECT_NE(text_of(j["page"].get<std::string>()).find("p1 against q1"), std::string::npos);
+  // Half of a series is not what the summary speaks of.
+  const std::string series = text_of(fs::path(run) / "series.csv");
+  write(fs::path(run) / "series.csv", series.substr(0, series.rfind('\n', series.size() / 2) + 1));
+  expect_complaint(run_pfaff({"plot", run}), 2, {"holds files that are not as a run has left them"}, "plot");
 }
 
 }  // namespace

@@ -92,7 +92,8 @@ TEST(StreamedRun, ALongerOneIsReplacedByForceAlone) {
   expect_complaint(run_pfaff(pendulum("3")), 2, {"another run; expected", "--force"}, "longer");
   fs::remove(files.path() / "run/config.toml");
   expect_complaint(run_pfaff(pendulum("1")), 2,
-                   {"a run that is longer", "config.toml cannot be read", "--force"}, "of unknown settings");
+                   {"a run that is longer", "of which no config.toml says what it is", "--force"},
+                   "of unknown settings");
   EXPECT_EQ(text_of(files / "run/series.csv"), series);
   EXPECT_EQ(run_pfaff(pendulum("1") + Arguments{"--force"}).status, 0);
   EXPECT_EQ(lines_in(files.path() / "run/series.csv"), 12);
