@@ -29,7 +29,9 @@ function(pfaff_target target)
     target_compile_options(${target} PRIVATE -fsanitize=${PFAFF_SANITIZE} -fno-omit-frame-pointer
                                              -fno-sanitize-recover=all
                                              -fno-sanitize=null,alignment,object-size,pointer-overflow,vptr
-                                             -fno-sanitize-address-use-after-scope)
+                                             -fno-sanitize-address-use-after-scope
+                                             # GCC takes parts of variants for uninitialised where it inlines less.
+                                             -Wno-maybe-uninitialized)
     target_link_options(${target} PRIVATE -fsanitize=${PFAFF_SANITIZE})
   endif()
 endfunction()

@@ -81,7 +81,8 @@ std::vector<Real> bracket_point(int n) {
   for (int k = 0; k < n; ++k) z.push_back(Real::fraction(3 + 2 * k, 7));
   return z;
 }
-// States of all sizes up to ten, with coordinates that are positive, as sizes and temperatures are.
+// States of sizes up to five in each coordinate and more in most, which are positive, as sizes and
+// temperatures are.
 Region bracket_region(int n) {
   Region region(bracket_point(n));
   for (const std::int64_t factor : {2, 4, 8, 24}) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 namespace pfaff {
@@ -36,9 +37,10 @@ class RunError : public std::runtime_error {
 std::string words_of_current_exception();
 
 /// Returns work(). What it throws, of whatever type, becomes a PluginError that begins with `who`, the
-/// plug-in whose code is run; an InputError, a RunError and a lack of memory pass as they are.
-template <class Work>
-auto on_behalf_of(std::string_view who, Work&& work) {
+/// plug-in whose code is run, a text or what makes it where it is needed; an InputError, a RunError and a
+/// lack of memory pass as they are.
+template <class Who, class Work>
+auto on_behalf_of(const Who& who, Work&& work) {
   try {
     return work();
   } catch (const InputError&) {
@@ -48,7 +50,12 @@ auto on_behalf_of(std::string_view who, Work&& work) {
   } catch (const std::bad_alloc&) {
     throw;
   } catch (...) {
-    throw PluginError(std::string(who) + ": " + words_of_current_exception());
+    const std::string words = words_of_current_exception();
+    if constexpr (std::is_invocable_v<const Who&>) {
+      throw PluginError(who() + ": " + words);
+    } else {
+      throw PluginError(std::string(who) + ": " + words);
+    }
   }
 }
 

@@ -64,7 +64,8 @@ class MethodInstance : public Maker<StepperPointer, StepScalars, std::shared_ptr
       return called() + " keeps the constraints of a motion that an energy makes alone; " + model.name() +
              " has applied forces, which methods for vector fields take, beside a formulation of its "
              "constraints";
-    const std::string reason = on_behalf_of("integrator " + called(), [&] { return objection(model); });
+    const std::string reason =
+        on_behalf_of([this] { return "integrator " + called(); }, [&] { return objection(model); });
     return reason.empty() ? reason : called() + " " + reason;
   }
   /// True when the method can choose its steps (advance_to).

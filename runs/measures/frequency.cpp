@@ -31,7 +31,7 @@ struct Frequency {
   }
   [[nodiscard]] VectorTexts texts() const { return {names, x, y, definitions}; }
   [[nodiscard]] std::string refuses(const Model& model, const MethodInstance& /*method*/) const {
-    if (const std::string objection = texts().objection(); !objection.empty()) return objection;
+    if (std::string objection = texts().objection(); !objection.empty()) return objection;
     (void)VectorsInText(texts(), model);
     return "";
   }
