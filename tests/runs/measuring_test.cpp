@@ -16,7 +16,7 @@ namespace {
 using ::testing::HasSubstr;
 
 // What a measure of a test does at a look.
-enum class Deed { nothing, throws, is_not_finite, few_cells, ends, looks_back, goes_beside };
+enum class Deed { nothing, throws, is_not_finite, few_cells, ends, looks_back, looks_on, goes_beside };
 
 // Looks at every third step, at all blocks, and at the end.
 struct Trial {
@@ -25,6 +25,7 @@ struct Trial {
   template <class T>
   [[nodiscard]] std::vector<std::int64_t> looks(const Measured<T>& run) const {
     if (deed == Deed::looks_back) return {3, 2};
+    if (deed == Deed::looks_on) return {3, run.steps + 1};
     std::vector<std::int64_t> numbers;
     for (std::int64_t step = 0; step <= run.steps; step += 3) numbers.push_back(step);
     return numbers;
@@ -98,8 +99,8 @@ TEST(Measuring, ShowsTheStatesOfTheRun) {
 }
 
 TEST(Measuring, AFaultOfAMeasureIsItsOwn) {
-  const auto tables = tables_of(
-      {Deed::nothing, Deed::throws, Deed::is_not_finite, Deed::few_cells, Deed::ends, Deed::looks_back});
+  const auto tables = tables_of({Deed::nothing, Deed::throws, Deed::is_not_finite, Deed::few_cells,
+                                 Deed::ends, Deed::looks_back, Deed::looks_on});
   const auto alone = tables_of({Deed::nothing}).front();
   EXPECT_EQ(tables[0].lines.size(), 5U);
   for (std::size_t k = 0; k < 5; ++k)
@@ -115,6 +116,7 @@ TEST(Measuring, AFaultOfAMeasureIsItsOwn) {
   EXPECT_THAT(tables[4].ended, HasSubstr("the measure has no row from t = "));
   EXPECT_EQ(tables[5].lines.size(), 0U);
   EXPECT_THAT(tables[5].ended, HasSubstr("in increasing order"));
+  EXPECT_THAT(tables[6].ended, HasSubstr("expected numbers of steps from 0 to the "));
 }
 
 // Looks at every fourth step, leaves no row there and two at the end.
