@@ -25,4 +25,8 @@ std::vector<VerificationJob> verification_jobs(const std::vector<MethodToVerify>
                                                const std::vector<std::shared_ptr<const Model>>& systems,
                                                const std::vector<std::shared_ptr<const Model>>& on);
 
+/// Checks of a method on a system, and the controls of its coefficients where that is the system for them.
+std::vector<Check> with_control(std::vector<Check> checks, const MethodInstance& method,
+                                const Assignments& parameters, const SystemPlugin& system);
+
 }  // namespace pfaff
