@@ -1,7 +1,8 @@
 # What every target of Pfaff has in common. No global flags: each target says what it needs.
 function(pfaff_target target)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET default)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF CXX_VISIBILITY_PRESET default
+                                             LINKER_LANGUAGE CXX)  # some have objects alone
   # Contraction changes results between machines, so it is set explicitly; runs record it.
   # GCC's note about 32-byte aligned arguments compares with an ABI of 2010; its 12th version sees overflows in
   # concatenations of strings where there are none (its bug 105651).

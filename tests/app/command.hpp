@@ -26,6 +26,7 @@
 #include <pfaff/bench/runner/json.hpp>
 
 #include "../temporary_directory.hpp"
+#include "../test_plugins.hpp"
 
 namespace pfaff::testing {
 

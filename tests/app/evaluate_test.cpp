@@ -108,7 +108,7 @@ TEST(Evaluate, AStateOutsideTheDomainIsShownNotRefused) {
 }
 
 TEST(Evaluate, ADegenerateStructureNamesItsDirections) {
-  const Arguments where{"degenerate", "--plugin", PFAFF_TEST_PLUGINS "/degenerate.so"};
+  const Arguments where{"degenerate", "--plugin", test_plugin("degenerate")};
   const auto j = evaluated(where, 1);
   EXPECT_EQ(j["regular"], false);
   EXPECT_EQ(j["status"], "singular");

@@ -10,10 +10,6 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-std::string plugin_file(const std::string& name) {
-  return std::string(PFAFF_TEST_PLUGINS) + "/" + name + ".so";
-}
-
 // A run of a pendulum, short enough for a test.
 Arguments small_run(const std::string& out, const Arguments& more = {}) {
   return Arguments{"run", "--system", "pendulum", "--integrator", "verlet", "--step",
@@ -37,7 +33,7 @@ class ForeignCode : public ::testing::Test {
 };
 
 TEST_F(ForeignCode, AConfigurationLoadsNoPlugins) {
-  const std::string fits = plugin_file("fits");
+  const std::string fits = test_plugin("fits");
   ASSERT_EQ(run_pfaff(small_run(files() / "mine")).status, 0);
   write(files().path() / "theirs.toml",
         text_of(files() / "mine/config.toml") + "\n[plugins]\n\"" + fits + "\" = \"0123456789abcdef\"\n");
@@ -56,16 +52,16 @@ TEST_F(ForeignCode, AConfigurationLoadsNoPlugins) {
 
 TEST_F(ForeignCode, WhatHappensAtTheSecondLoadEndsInOneLine) {
   const auto list = [](const std::string& name) {
-    return Arguments{"list", "systems", "--plugin", plugin_file(name)};
+    return Arguments{"list", "systems", "--plugin", test_plugin(name)};
   };
   for (const auto& [name, said] : std::vector<std::pair<std::string, std::string>>{
            {"exit-later", "ends the program while it is loaded"},
            {"exit-quickly-later", "ends the program while it is loaded"},
            {"throw-later", "throws while it is loaded: not twice"}}) {
     fs::remove(witness());
-    expect_complaint(run_pfaff(list(name)), 2, {"plug-in '" + plugin_file(name) + "': " + said}, name);
+    expect_complaint(run_pfaff(list(name)), 2, {"plug-in '" + test_plugin(name) + "': " + said}, name);
     fs::remove(witness());
-    expect_complaint(run_pfaff(small_run("-", {"--plugin", plugin_file(name)})), 2, {said}, name);
+    expect_complaint(run_pfaff(small_run("-", {"--plugin", test_plugin(name)})), 2, {said}, name);
   }
   // A second process that comes back out of the loader does not go on with the work.
   fs::remove(witness());
@@ -76,12 +72,12 @@ TEST_F(ForeignCode, WhatHappensAtTheSecondLoadEndsInOneLine) {
 
 TEST_F(ForeignCode, WhatMultipliesIsRefused) {
   for (const char* name : {"come-back-twice", "leave-a-process"})
-    expect_complaint(run_pfaff({"list", "systems", "--plugin", plugin_file(name)}), 2,
+    expect_complaint(run_pfaff({"list", "systems", "--plugin", test_plugin(name)}), 2,
                      {name, "leaves another process behind while it is loaded"}, name);
 }
 
 TEST_F(ForeignCode, ATrialEndsWithTheProgram) {
-  const Program program({"list", "systems", "--plugin", plugin_file("hang")});
+  const Program program({"list", "systems", "--plugin", test_plugin("hang")});
   const pid_t trial = process_in(witness());
   ASSERT_GT(trial, 0);
   EXPECT_NE(trial, program.id());
@@ -92,7 +88,7 @@ TEST_F(ForeignCode, ATrialEndsWithTheProgram) {
 // Locales, rounding, the working directory: what a plug-in changes while it is loaded changes no byte.
 TEST_F(ForeignCode, WhatAPluginChangesOfTheProcessChangesNoNumber) {
   const CommaLocale comma;
-  const Arguments changing{"--plugin", plugin_file("change-the-process")};
+  const Arguments changing{"--plugin", test_plugin("change-the-process")};
   for (const Arguments& how : {Arguments{}, Arguments{"--precision", "quad"}, Arguments{"--compile"}}) {
     Circumstances here;
     here.directory = files().path();

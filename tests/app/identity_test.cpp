@@ -84,7 +84,7 @@ TEST(Identity, AChangedStateFileIsAnotherRun) {
 TEST(Identity, ARebuiltPluginIsNoticed) {
   const TemporaryDirectory files;
   const auto build = [&](const std::string& stiffness) {
-    fs::copy_file(fs::path(PFAFF_TEST_PLUGINS) / ("spring-" + stiffness + ".so"), files.path() / "spring.so",
+    fs::copy_file(test_plugin("spring-" + stiffness), files.path() / "spring.so",
                   fs::copy_options::overwrite_existing);
   };
   const auto run = [&](const std::string& out) {
@@ -119,7 +119,7 @@ TEST(Identity, ARebuiltPluginThatAFileNamesIsNoticed) {
         "name = \"twice\"\nkind = \"composition\"\norder = 2\nbase = \"test-verlet\"\n"
         "weights = [\"1/2\", \"1/2\"]\n");
   const auto build = [&](const std::string& stiffness) {
-    fs::copy_file(fs::path(PFAFF_TEST_PLUGINS) / ("spring-" + stiffness + ".so"), files.path() / "spring.so",
+    fs::copy_file(test_plugin("spring-" + stiffness), files.path() / "spring.so",
                   fs::copy_options::overwrite_existing);
   };
   const Arguments plugin{"--plugin", files / "spring.so"};
@@ -148,7 +148,7 @@ TEST(Identity, ConfigRepeatsARunFromAnywhere) {
   fs::create_directories(files.path() / "models");
   fs::create_directories(files.path() / "elsewhere");
   write(files / ("models/" + name), chain("9.81"));
-  fs::copy_file(fs::path(PFAFF_TEST_PLUGINS) / "spring-1.so", files.path() / "models/spring.so");
+  fs::copy_file(test_plugin("spring-1"), files.path() / "models/spring.so");
   const Arguments with_model = chain_to("run", "models/" + name);
   const Arguments with_plugin = short_run_to(
       "run", {"--system", "test-spring", "--integrator", "verlet", "--plugin", "models/spring.so"});

@@ -21,7 +21,7 @@ Arguments killed_run_to(const std::string& out, const std::string& time) {
 // A run of ten thousand steps that takes a twentieth of a second: nothing is classified at its end, because
 // the system has no invariants, and so most of its time is spent in steps.
 Arguments spring_to(const std::string& out, const std::string& time = "100") {
-  const std::string plugin = PFAFF_TEST_PLUGINS "/spring-1.so";
+  const std::string plugin = test_plugin("spring-1");
   return {"run",    "--out", out,      "--system", "test-spring", "--integrator", "verlet",
           "--step", "0.01",  "--time", time,       "--json",      "--plugin",     plugin};
 }

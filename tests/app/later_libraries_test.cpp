@@ -190,7 +190,7 @@ TEST_F(Studies, ALibraryOfAnotherBuildIsRefused) {
     put(other);
     expect_refusal({"belongs to another build of Pfaff"}, "build " + other.substr(note, 100));
   }
-  put(text_of(std::string(PFAFF_TEST_PLUGINS) + "/fits.so"));
+  put(text_of(test_plugin("fits")));
   expect_refusal({"does not say which build"}, "a plug-in");
 }
 
@@ -278,7 +278,7 @@ TEST_F(ShippedPlugins, DamagedAndOtherOnesAreNotLoaded) {
   other[build] = other[build] == '0' ? '1' : '0';
   put(other);
   expect_not_all({"belongs to another build of Pfaff"}, "another build");
-  put(text_of(std::string(PFAFF_TEST_PLUGINS) + "/fits.so"));
+  put(text_of(test_plugin("fits")));
   expect_not_all({"does not say which build"}, "a plug-in");
 }
 

@@ -10,7 +10,7 @@ using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
 Arguments planted_run_to(const std::string& out) {
-  const std::string plugin = PFAFF_TEST_PLUGINS "/spring-1.so";
+  const std::string plugin = test_plugin("spring-1");
   return {"run",    "--out", out,      "--system", "test-spring", "--integrator", "verlet",
           "--step", "0.01",  "--time", "0.1",      "--json",      "--plugin",     plugin};
 }

@@ -7,8 +7,7 @@ namespace {
 using namespace pfaff::testing;
 using Arguments = std::vector<std::string>;
 
-const std::string faulty = std::string(PFAFF_TEST_PLUGINS) + "/faulty.so",
-                  throws_late = std::string(PFAFF_TEST_PLUGINS) + "/throws-late.so";
+const std::string faulty = test_plugin("faulty"), throws_late = test_plugin("throws-late");
 
 Arguments faulty_run(const std::string& system, const std::string& integrator, const Arguments& more = {}) {
   return Arguments{"run",          "--plugin", faulty,   "--out", "-",      "--system", system,

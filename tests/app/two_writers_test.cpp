@@ -16,7 +16,7 @@ using Arguments = std::vector<std::string>;
 using std::chrono::milliseconds;
 
 Arguments run_of_a_spring(const std::string& out) {
-  const std::string plugin = PFAFF_TEST_PLUGINS "/spring-1.so";
+  const std::string plugin = test_plugin("spring-1");
   return {"run",    "--out", out,      "--system", "test-spring", "--integrator", "verlet",
           "--step", "0.01",  "--time", "1",        "--json",      "--plugin",     plugin};
 }

@@ -14,10 +14,11 @@
 #include <pfaff/core/registry/abi.hpp>
 #include <pfaff/core/registry/registry.hpp>
 
+#include "../test_plugins.hpp"
+
 namespace {
 using namespace pfaff;
-
-std::string plugin(const std::string& name) { return std::string(PFAFF_TEST_PLUGINS) + "/" + name + ".so"; }
+using pfaff::testing::test_plugin;
 
 std::string abi_refusal(const std::string& path) {
   try {
@@ -29,14 +30,14 @@ std::string abi_refusal(const std::string& path) {
 }
 
 TEST(AbiStamp, EveryTranslationUnitLeavesOne) {
-  EXPECT_EQ(abi_stamps(plugin("fits")), std::vector<std::string>{own_abi_stamp()});
-  EXPECT_EQ(abi_stamps(plugin("two-stamps")).size(), 2U);
-  EXPECT_GE(abi_stamps(plugin("templates")).size(), 3U);
-  EXPECT_TRUE(abi_stamps(plugin("no-stamp")).empty());
+  EXPECT_EQ(abi_stamps(test_plugin("fits")), std::vector<std::string>{own_abi_stamp()});
+  EXPECT_EQ(abi_stamps(test_plugin("two-stamps")).size(), 2U);
+  EXPECT_GE(abi_stamps(test_plugin("templates")).size(), 3U);
+  EXPECT_TRUE(abi_stamps(test_plugin("no-stamp")).empty());
 }
 
 TEST(AbiStamp, ARefusalNamesWhatDiffersAndNothingElse) {
-  const std::string text = abi_refusal(plugin("fast-math"));
+  const std::string text = abi_refusal(test_plugin("fast-math"));
   EXPECT_NE(text.find("built for arithmetic=fast; expected arithmetic=strict"), std::string::npos) << text;
   EXPECT_EQ(text.find("compiler="), std::string::npos) << text;
 }
@@ -44,7 +45,7 @@ TEST(AbiStamp, ARefusalNamesWhatDiffersAndNothingElse) {
 // Neither a crash nor acceptance of half a file: every prefix through the headers and notes, then with bytes
 // changed.
 TEST(AbiStamp, DamagedFilesAreRefused) {
-  std::ifstream file(plugin("other-version"), std::ios::binary);
+  std::ifstream file(test_plugin("other-version"), std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   ASSERT_GT(bytes.size(), 2048U);
   const auto path =
@@ -66,7 +67,7 @@ TEST(AbiStamp, DamagedFilesAreRefused) {
 // A segment behind the end of the file can be mapped and not read: the loader, or the first call, would die
 // of it.
 TEST(AbiStamp, FilesThatAreCutOffAreRefused) {
-  std::ifstream file(plugin("fits"), std::ios::binary);
+  std::ifstream file(test_plugin("fits"), std::ios::binary);
   const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
   std::uint64_t segments_end = 0;
   ElfW(Ehdr) header;
@@ -118,7 +119,7 @@ TEST(AbiStamp, SaysHowTypesAreLaidOut) {
 
 // A library linked with -ffast-math sets the processor to flush subnormals when it is loaded.
 TEST(AbiStamp, LoadingLeavesTheArithmeticAlone) {
-  load_plugin(plugin("starts-fast"));
+  load_plugin(test_plugin("starts-fast"));
   volatile double tiny = DBL_MIN;
   tiny = tiny / 4;
   EXPECT_GT(tiny, 0);

@@ -19,15 +19,14 @@
 #include <pfaff/core/registry/registry.hpp>
 
 #include "../comma_locale.hpp"
+#include "../test_plugins.hpp"
 
 #ifdef __x86_64__
 #include <xmmintrin.h>
 
 namespace {
 
-std::string misbehaving(const std::string& name) {
-  return std::string(PFAFF_TEST_PLUGINS) + "/" + name + ".so";
-}
+using pfaff::testing::test_plugin;
 
 bool flushes_subnormals() {
   volatile double tiny = DBL_MIN;
@@ -62,7 +61,7 @@ TEST(SharedObject, LoadingLeavesTheProcessAsItWas) {
   const pfaff::testing::CommaLocale comma;
   const auto before_the_test = std::signal(SIGPIPE, SIG_IGN);
   const std::string before = process_in_words();
-  pfaff::load_plugin(misbehaving("change-the-process"));
+  pfaff::load_plugin(test_plugin("change-the-process"));
   EXPECT_EQ(process_in_words(), before);
   std::signal(SIGPIPE, before_the_test);
 }
@@ -71,7 +70,7 @@ TEST(SharedObject, LoadingLeavesTheProcessAsItWas) {
 TEST(SharedObject, TheLocaleOfAHostStaysToo) {
   const pfaff::testing::CommaLocale comma;
   const pfaff::testing::TemporaryDirectory files;
-  std::filesystem::copy_file(misbehaving("change-the-process"), files.path() / "copy.so");
+  std::filesystem::copy_file(test_plugin("change-the-process"), files.path() / "copy.so");
   ASSERT_NE(std::setlocale(LC_NUMERIC, "comma"), nullptr);
   const std::string before = process_in_words();
   EXPECT_NE(before.find("LC_NUMERIC=comma"), std::string::npos) << before;
@@ -87,7 +86,7 @@ TEST(SharedObject, TheControlIsThatThePluginDoesChangeThem) {
         const pfaff::testing::CommaLocale comma;
         const auto copy =
             std::filesystem::temp_directory_path() / ("pfaff-changes-" + std::to_string(getpid()));
-        std::filesystem::copy_file(misbehaving("change-the-process"), copy);
+        std::filesystem::copy_file(test_plugin("change-the-process"), copy);
         const std::string before = process_in_words();
         const bool loaded = dlopen(copy.c_str(), RTLD_NOW | RTLD_LOCAL) != nullptr;
         std::filesystem::remove(copy);

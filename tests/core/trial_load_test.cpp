@@ -14,14 +14,11 @@
 
 #include "../processes.hpp"
 #include "../temporary_directory.hpp"
+#include "../test_plugins.hpp"
 
 namespace {
 using namespace pfaff;
 using namespace pfaff::testing;
-
-std::string plugin_on_trial(const std::string& name) {
-  return std::string(PFAFF_TEST_PLUGINS) + "/" + name + ".so";
-}
 
 class TrialLoad : public ::testing::Test {
  protected:
@@ -34,30 +31,28 @@ class TrialLoad : public ::testing::Test {
 };
 
 TEST_F(TrialLoad, WhatLoadsIsAccepted) {
-  EXPECT_EQ(trial_load(plugin_on_trial("fits")), "");
+  EXPECT_EQ(trial_load(test_plugin("fits")), "");
   EXPECT_TRUE(fs::exists(witness())) << "it was not loaded";
 }
 
 TEST_F(TrialLoad, WhatThrowsOrEndsTheProcess) {
-  EXPECT_EQ(trial_load(plugin_on_trial("throws-error")), "throws while it is loaded: not today");
-  EXPECT_NE(trial_load(plugin_on_trial("throws-odd")).find("Odd"), std::string::npos);
-  EXPECT_EQ(trial_load(plugin_on_trial("ends-by-itself")),
+  EXPECT_EQ(trial_load(test_plugin("throws-error")), "throws while it is loaded: not today");
+  EXPECT_NE(trial_load(test_plugin("throws-odd")).find("Odd"), std::string::npos);
+  EXPECT_EQ(trial_load(test_plugin("ends-by-itself")),
             "ends the program while it is loaded, with exit status 0");
-  EXPECT_EQ(trial_load(plugin_on_trial("ends-by-signal")), "ends the program while it is loaded: Terminated");
+  EXPECT_EQ(trial_load(test_plugin("ends-by-signal")), "ends the program while it is loaded: Terminated");
   EXPECT_NE(trial_load("/nowhere/missing.so").find("cannot open"), std::string::npos);
 }
 
 TEST_F(TrialLoad, WhatHangsIsEndedInTime) {
-  EXPECT_EQ(trial_load(plugin_on_trial("hang"), std::chrono::milliseconds(500)),
+  EXPECT_EQ(trial_load(test_plugin("hang"), std::chrono::milliseconds(500)),
             "does not end to be loaded within 500 ms");
   EXPECT_TRUE(gone(process_in(witness())));
 }
 
 TEST_F(TrialLoad, WhatMultipliesIsRefusedAndNothingOfItIsLeft) {
-  EXPECT_EQ(trial_load(plugin_on_trial("come-back-twice")),
-            "leaves another process behind while it is loaded");
-  EXPECT_EQ(trial_load(plugin_on_trial("leave-a-process")),
-            "leaves another process behind while it is loaded");
+  EXPECT_EQ(trial_load(test_plugin("come-back-twice")), "leaves another process behind while it is loaded");
+  EXPECT_EQ(trial_load(test_plugin("leave-a-process")), "leaves another process behind while it is loaded");
   // The process that was left may not have come to its witness.
   if (fs::exists(witness())) {
     EXPECT_TRUE(gone(process_in(witness())));

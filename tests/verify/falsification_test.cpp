@@ -15,12 +15,14 @@
 #include <pfaff/verify/measured_step.hpp>
 #include <pfaff/verify/random_checks.hpp>
 
+#include "../test_plugins.hpp"
+
 namespace pfaff {
 namespace {
 
 const MethodPlugin& method_plugin(const std::string& name) {
   if ((name.starts_with("false-") || name.starts_with("noisy-")) && integrators().find(name) == nullptr)
-    load_plugin(PFAFF_TEST_PLUGINS "/false-claims.so");
+    load_plugin(testing::test_plugin("false-claims"));
   return integrators().get(name, "integrator");
 }
 
