@@ -82,7 +82,7 @@ const ReferenceSolution& FollowedMotion::solution() {
     // A motion that gets ever faster is followed as far as so many steps lead, some seconds at most; sixteen
     // turns of one that does not take some hundred.
     const Budget budget({.steps = most_steps_followed});
-    solution_.emplace(model_, begin_, std::vector<Quad>(start.begin(), start.end()), duration_);
+    solution_.emplace(model_, begin_, std::vector<Quad>(start.begin(), start.end()), duration_, Series::one);
   }
   return *solution_;
 }
