@@ -7,7 +7,10 @@
   A header compiles by itself, without generating code. Builds do not show it: where sources are compiled
   together, others come before the one that includes its header first.
 
-  includes.py [--no-compile] [--root DIRECTORY]
+  includes.py [--no-compile | --changed FILE] [--root DIRECTORY]
+                              with --changed only the headers that the file lists and those that include one, through others too
+  includes.py --readers FILE  prints the sources that the file lists, and of its headers the sources that include them, through
+                              others where none does itself
   includes.py --chains FILE   prints the headers that a file lists as they are compiled, those of a line one after the other
 
 Exit status: 0 the rules hold, 1 a rule is broken (one line for each place), 2 wrong usage.
@@ -148,6 +151,23 @@ def chains(headers, held):
             yield chain
 
 
+def readers(arrows, changed):
+    """Sources in which every one of the files that is of a room is read."""
+    users = defaultdict(set)
+    for source, _, target in arrows:
+        users[target].add(source)
+    found, left = set(), list(changed)
+    for file in left:  # which grows
+        sources = {file} if file.suffix == ".cpp" else {user for user in users[file] if user.suffix == ".cpp"}
+        found |= sources
+        left += [] if sources else users[file].difference(left)
+    return found
+
+
+def paths_in(listed):
+    return [Path(line) for line in listed.read_text().splitlines()]
+
+
 def graph_of(arrows):
     graph = defaultdict(set)
     for source, _, target in arrows:
@@ -155,8 +175,7 @@ def graph_of(arrows):
     return graph
 
 
-def compiled_alone(root, headers, arrows):
-    graph = graph_of(arrows)
+def compiled_alone(root, headers, held):
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "pfaff").symlink_to(root)
         compiler = [os.environ.get("CXX", "c++"), "-std=c++20", "-w", "-I", folder, "-isystem", "/usr/include/eigen3",
@@ -188,12 +207,12 @@ def compiled_alone(root, headers, arrows):
             return faults or [f"{', '.join(map(str, chain))} do not compile one after the other"]
 
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            made = list(pool.map(precompile, range(len(PRECOMPILED))))
-            held, groups = {header: closure(graph, header) for header in headers}, defaultdict(list)
+            groups = defaultdict(list)
             for header in headers:
-                fitting = (name for name, parts in zip(made, PRECOMPILED) if name and held[header].issuperset(map(Path, parts)))
+                fitting = (number for number, parts in enumerate(PRECOMPILED) if held[header].issuperset(map(Path, parts)))
                 groups[next(fitting, None)].append(header)
-            tasks = [(name, chain) for name, group in groups.items() for chain in chains(group, held)]
+            made = pool.map(lambda number: None if number is None else precompile(number), groups)
+            tasks = [(name, chain) for name, group in zip(made, groups.values()) for chain in chains(group, held)]
             for faults in pool.map(faults_of, tasks):
                 yield from faults
 
@@ -202,23 +221,33 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--root", type=Path, default=Path(__file__).resolve().parent.parent)
     parser.add_argument("--no-compile", action="store_true", help="look at arrows and cycles only")
+    parser.add_argument("--changed", type=Path, metavar="FILE", help="compile only what changes of the files that it lists may have broken")
+    parser.add_argument("--readers", type=Path, metavar="FILE", help="print the sources in which these files are read, and check nothing")
     parser.add_argument("--chains", type=Path, metavar="FILE", help="print headers as they are compiled, and check nothing")
     arguments = parser.parse_args()
     root = arguments.root.resolve()
     files = list(sources(root))
     arrows = [(source, number, target) for source in files for number, target in includes(root, source)]
+    graph = graph_of(arrows)
     if arguments.chains:
-        listed, graph = [Path(line) for line in arguments.chains.read_text().splitlines()], graph_of(arrows)
+        listed = paths_in(arguments.chains)
         for chain in chains(listed, {header: closure(graph, header) for header in listed}):
             print(*chain)
         return 0
+    if arguments.readers:
+        print(*sorted(readers(arrows, paths_in(arguments.readers)).intersection(files)), sep="\n")
+        return 0
     problems = [*broken_arrows(arrows), *broken_libraries(arrows), *cycles(arrows)]
     listed = root / "cmake" / "public_headers.txt"
-    public = set(map(Path, listed.read_text().split("\n"))) if listed.exists() else set()
+    public = set(paths_in(listed)) if listed.exists() else set()
     others = [f for f in files if f.suffix == ".hpp" and f not in public and f.parts[0] != "app"
               and f.parts[:2] != ("bench", "micro")]
     if not arguments.no_compile:
-        problems += compiled_alone(root, others, arrows)
+        held = {header: closure(graph, header) for header in others}
+        if arguments.changed:
+            changed = set(paths_in(arguments.changed))
+            others = [header for header in others if header in changed or not held[header].isdisjoint(changed)]
+        problems += compiled_alone(root, others, held)
     print("\n".join(problems), end="\n" if problems else "", file=sys.stderr)
     return 1 if problems else 0
 

@@ -47,6 +47,16 @@ function(pfaff_cold_target target)
   target_compile_definitions(${target} PRIVATE PFAFF_COLD)
 endfunction()
 
+# What a target is made of: sources or, where another build has compiled them, its objects (PFAFF_OBJECTS_FROM).
+function(pfaff_compiled result target)
+  set(made_of ${ARGN})
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/objects/${target} CONTENT "$<JOIN:$<TARGET_OBJECTS:${target}>,\n>\n")
+  if(PFAFF_OBJECTS_FROM)
+    file(STRINGS ${PFAFF_OBJECTS_FROM}/objects/${target} made_of)
+  endif()
+  set(${result} ${made_of} PARENT_SCOPE)
+endfunction()
+
 # Those of the sources in which a line matches the pattern.
 function(pfaff_sources_with result pattern)
   set(found "")

@@ -32,6 +32,28 @@ class Includes(unittest.TestCase):
     def test_what_keeps_the_rules_passes(self):
         self.assertEqual(self.check(), (0, ""))
 
+    def test_only_what_a_change_may_have_broken_is_compiled(self):
+        self.write("core/linear/lu.hpp", "#pragma once\n#include <pfaff/core/numbers/real.hpp>\nMatrix lu();\n")
+        self.write("listed", "core/numbers/quad.hpp\n")
+        self.write("core/numbers/quad.hpp", "#pragma once\n")
+        self.assertEqual(self.check("--changed", self.root / "listed"), (0, ""))
+        self.write("listed", "core/numbers/real.hpp\n")  # which the broken one includes
+        status, said = self.check("--changed", self.root / "listed")
+        self.assertEqual(status, 1)
+        self.assertIn("core/linear/lu.hpp does not compile by itself", said)
+
+    def test_readers_of_a_header_are_those_that_include_it_or_else_those_of_its_includers(self):
+        self.write("core/linear/lu.cpp", "#include <pfaff/core/linear/lu.hpp>\n")
+        self.write("brackets/canonical.cpp", "#include <pfaff/brackets/canonical.hpp>\n")
+        for listed, expected in (("core/linear/lu.hpp", ["core/linear/lu.cpp"]), ("core/numbers/real.hpp", ["core/linear/lu.cpp"]),
+                                 ("brackets/canonical.hpp", ["brackets/canonical.cpp"]), ("brackets/canonical.cpp", ["brackets/canonical.cpp"]),
+                                 ("README.md", [])):
+            with self.subTest(listed):
+                self.write("listed", listed + "\n")
+                done = subprocess.run([sys.executable, PROJECT / ".ci/includes.py", "--root", self.root, "--readers", self.root / "listed"],
+                                      capture_output=True, text=True, check=True)
+                self.assertEqual(done.stdout.split(), expected)
+
     def test_an_arrow_that_runs_back_is_named(self):
         self.write("core/registry/registry.cpp", "#include <vector>\n#include <pfaff/brackets/canonical.hpp>\n")
         status, said = self.check("--no-compile")
