@@ -47,10 +47,14 @@ function(pfaff_cold_target target)
   target_compile_definitions(${target} PRIVATE PFAFF_COLD)
 endfunction()
 
+function(pfaff_list_objects target)
+  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/objects/${target} CONTENT "$<JOIN:$<TARGET_OBJECTS:${target}>,\n>\n")
+endfunction()
+
 # What a target is made of: sources or, where another build has compiled them, its objects (PFAFF_OBJECTS_FROM).
 function(pfaff_compiled result target)
   set(made_of ${ARGN})
-  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/objects/${target} CONTENT "$<JOIN:$<TARGET_OBJECTS:${target}>,\n>\n")
+  pfaff_list_objects(${target})
   if(PFAFF_OBJECTS_FROM)
     file(STRINGS ${PFAFF_OBJECTS_FROM}/objects/${target} made_of)
   endif()

@@ -25,8 +25,8 @@
 
 #include <pfaff/bench/runner/json.hpp>
 
+#include "../built.hpp"
 #include "../temporary_directory.hpp"
-#include "../test_plugins.hpp"
 
 namespace pfaff::testing {
 
@@ -70,7 +70,7 @@ class Program {
       throw std::runtime_error("pipe failed");
     if (circumstances.nobody_reads) close(out_[0]), out_[0] = -1;
     const std::string program =
-        circumstances.program.empty() ? PFAFF_PROGRAM : circumstances.program.string();
+        (circumstances.program.empty() ? built_program() : circumstances.program).string();
     std::vector<const char*> argv{program.c_str()};
     for (const std::string& argument : arguments) argv.push_back(argument.c_str());
     argv.push_back(nullptr);

@@ -72,9 +72,8 @@ TEST(CommandLine, HelpHasToArrive) {
 
 // Two million rows take more bytes than there are; none of them is kept.
 TEST(CommandLine, ALongSeriesNeedsNoMemory) {
-#ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "the address sanitizer reserves more addresses than any such limit allows";
-#endif
+  if (has_address_sanitizer())
+    GTEST_SKIP() << "the address sanitizer reserves more addresses than any such limit allows";
   Circumstances little;
   little.memory = rlim_t{320} << 20U;
   const Arguments long_run{

@@ -48,7 +48,8 @@ std::string output_of(const std::string& program, const fs::path& script) {
 // What bash offers where the last of these words ends.
 Names offered(const std::vector<std::string>& words) {
   const TemporaryDirectory files;
-  std::string script = run_pfaff({"completion", "bash"}).out + "\nCOMP_WORDS=('" + PFAFF_PROGRAM + "'";
+  std::string script =
+      run_pfaff({"completion", "bash"}).out + "\nCOMP_WORDS=('" + built_program().string() + "'";
   for (const std::string& word : words) script += " '" + word + "'";
   script += ")\nCOMP_CWORD=" + std::to_string(words.size()) +
             "\ncompopt() { :; }\n_pfaff\nprintf '%s\\n' \"${COMPREPLY[@]}\"\n";

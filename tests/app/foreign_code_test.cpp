@@ -105,7 +105,7 @@ TEST_F(ForeignCode, WhatAPluginChangesOfTheProcessChangesNoNumber) {
 
 // The libraries, but neither experiments nor scripts.
 TEST_F(ForeignCode, AProgramThatWasCopiedAloneRunsNoScripts) {
-  const fs::path built = fs::path(PFAFF_PROGRAM).parent_path(), copied = files().path() / "copied/bin";
+  const fs::path built = built_program().parent_path(), copied = files().path() / "copied/bin";
   fs::create_directories(copied);
   for (const auto& entry : fs::directory_iterator(built))
     if (const std::string name = entry.path().filename().string();

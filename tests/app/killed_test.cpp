@@ -58,11 +58,7 @@ TEST(KilledRun, LeavesADirectoryThatIsTakenUp) {
     fs::remove_all(files.path() / "whole");
     run_whole(spring_to(files / "whole"));
   }
-#ifdef __SANITIZE_ADDRESS__
-  constexpr int kills = 40;
-#else
-  constexpr int kills = 200;
-#endif
+  const int kills = has_address_sanitizer() ? 40 : 200;
   constexpr int in_a_row = 5;
   int before_the_end = 0, with_files = 0;
   for (int kill = 0; kill < kills; ++kill) {

@@ -17,7 +17,7 @@ using Arguments = std::vector<std::string>;
 class OneLibraryAway : public ::testing::Test {
  protected:
   explicit OneLibraryAway(const std::string& stem) {
-    const fs::path built = fs::path(PFAFF_PROGRAM).parent_path();
+    const fs::path built = built_program().parent_path();
     for (const auto& entry : fs::directory_iterator(built)) {
       const std::string name = entry.path().filename().string();
       if (name == "pfaff" || name.starts_with("libpfaff"))

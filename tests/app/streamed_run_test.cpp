@@ -72,7 +72,7 @@ TEST(StreamedRun, OutlivesTheSignalOfAFileThatIsTooLong) {
   fs::permissions(files.path() / "limited", fs::perms::owner_all);
   Circumstances limited;
   limited.program = files.path() / "limited";
-  Arguments command{PFAFF_PROGRAM};
+  Arguments command{built_program()};
   const Arguments run = long_kepler_to(files / "run");
   command.insert(command.end(), run.begin(), run.end());
   expect_complaint(run_pfaff(command, limited), 1, {"series.csv: File too large; ", " rows were written"},

@@ -14,7 +14,7 @@
 #include <pfaff/core/registry/abi.hpp>
 #include <pfaff/core/registry/registry.hpp>
 
-#include "../test_plugins.hpp"
+#include "../built.hpp"
 
 namespace {
 using namespace pfaff;

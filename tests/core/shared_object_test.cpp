@@ -18,8 +18,8 @@
 #include <pfaff/core/process/shared_object.hpp>
 #include <pfaff/core/registry/registry.hpp>
 
+#include "../built.hpp"
 #include "../comma_locale.hpp"
-#include "../test_plugins.hpp"
 
 #ifdef __x86_64__
 #include <xmmintrin.h>

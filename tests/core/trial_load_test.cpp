@@ -12,9 +12,9 @@
 #include <pfaff/core/errors/errors.hpp>
 #include <pfaff/core/registry/trial_load.hpp>
 
+#include "../built.hpp"
 #include "../processes.hpp"
 #include "../temporary_directory.hpp"
-#include "../test_plugins.hpp"
 
 namespace {
 using namespace pfaff;

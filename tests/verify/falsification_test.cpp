@@ -15,7 +15,7 @@
 #include <pfaff/verify/measured_step.hpp>
 #include <pfaff/verify/random_checks.hpp>
 
-#include "../test_plugins.hpp"
+#include "../built.hpp"
 
 namespace pfaff {
 namespace {
