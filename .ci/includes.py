@@ -8,7 +8,8 @@
   together, others come before the one that includes its header first.
 
   includes.py [--no-compile | --changed FILE] [--root DIRECTORY]
-                              with --changed only the headers that the file lists and those that include one, through others too
+                              with --changed it compiles only the headers that the file lists and those that include one of
+                              these, through others too
   includes.py --readers FILE  prints the sources that the file lists, and of its headers the sources that include them, through
                               others where none does itself
   includes.py --chains FILE   prints the headers that a file lists as they are compiled, those of a line one after the other
@@ -235,7 +236,8 @@ def main():
             print(*chain)
         return 0
     if arguments.readers:
-        print(*sorted(readers(arrows, paths_in(arguments.readers)).intersection(files)), sep="\n")
+        for source in sorted(readers(arrows, paths_in(arguments.readers)).intersection(files)):
+            print(source)
         return 0
     problems = [*broken_arrows(arrows), *broken_libraries(arrows), *cycles(arrows)]
     listed = root / "cmake" / "public_headers.txt"

@@ -47,8 +47,11 @@ function(pfaff_cold_target target)
   target_compile_definitions(${target} PRIVATE PFAFF_COLD)
 endfunction()
 
+# Writes the names of a target's objects to a file, for tests and for builds that take them.
 function(pfaff_list_objects target)
-  file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/objects/${target} CONTENT "$<JOIN:$<TARGET_OBJECTS:${target}>,\n>\n")
+  if(PFAFF_TESTS AND NOT CMAKE_CONFIGURATION_TYPES)
+    file(GENERATE OUTPUT ${PROJECT_BINARY_DIR}/objects/${target} CONTENT "$<JOIN:$<TARGET_OBJECTS:${target}>,\n>\n")
+  endif()
 endfunction()
 
 # What a target is made of: sources or, where another build has compiled them, its objects (PFAFF_OBJECTS_FROM).

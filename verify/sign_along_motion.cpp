@@ -11,7 +11,7 @@
 namespace pfaff {
 
 namespace {
-constexpr std::int64_t most_steps_followed = 8192;
+constexpr std::int64_t most_steps_followed = 4096;
 
 // The rate at times of the motion.
 class RateOfMotion {
@@ -82,7 +82,8 @@ const ReferenceSolution& FollowedMotion::solution() {
     // A motion that gets ever faster is followed as far as so many steps lead, some seconds at most; sixteen
     // turns of one that does not take some hundred.
     const Budget budget({.steps = most_steps_followed});
-    solution_.emplace(model_, begin_, std::vector<Quad>(start.begin(), start.end()), duration_, Series::one);
+    solution_.emplace(model_, begin_, std::vector<Quad>(start.begin(), start.end()), duration_,
+                      Certainty::not_shown);
   }
   return *solution_;
 }

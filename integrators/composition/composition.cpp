@@ -101,14 +101,14 @@ class CompositionPlugin final : public MethodPlugin {
         base->composed(scheme_of(settings).weights(order), 0));
   }
 
-  // Weights are the same over every base, and what a base adds is the same with all weights: over one base
-  // all are verified, over the others each scheme at its lowest order.
+  // Weights are the same over every base: over the base that a composition has by itself all are verified,
+  // and, unless in full, over the others each scheme at its lowest order.
   [[nodiscard]] std::vector<Assignments> instances(bool full) const override {
     std::vector<Assignments> list;
     for (const std::string& base : base_names())
       for (const Scheme& scheme : schemes()) {
         const std::size_t orders = full ? scheme.verified_in_full : scheme.verified;
-        for (std::size_t k = 0; k < (full || base == "verlet" ? orders : 1); ++k)
+        for (std::size_t k = 0; k < (full || base == Composing().base.name ? orders : 1); ++k)
           list.push_back({{"scheme", scheme.name}, {"order", scheme.orders[k]}, {"base", base}});
       }
     return list;

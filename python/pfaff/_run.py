@@ -3,7 +3,6 @@ from __future__ import annotations
 
 import decimal
 import functools
-import html
 import pickle
 import re
 import warnings
@@ -19,9 +18,9 @@ from ._errors import InputError, InvariantWarning, NotConverged, RunFailed
 from ._integration import Integration, attach, with_parameters
 from ._measure_table import MeasureTable
 from ._objects import as_system
-from ._plotted import label_of
+from ._run_shown import html_of, text_of
 from ._sensitivity import sensitivity_of, warn_of_jumps
-from ._tables import data_frame, html_table, text_table
+from ._tables import data_frame
 from ._watched import Watched
 
 if TYPE_CHECKING:
@@ -194,45 +193,11 @@ class Run:
 
         return plots.of_run(self, kind, **keywords)
 
-    def _rows(self) -> list[list[Any]]:
-        watched = [*self.drift.items(), *self.constraint_drift.items()]
-        return [[label_of(name, self.units.get(name, "")), *(one[field] for field in self._FIELDS)] for name, one in watched]
-
-    @property
-    def _columns(self) -> list[str]:
-        """Heads: the quantity stands with its unit, in which its largest error is; slopes are that by the unit of time."""
-        time = self.units.get("t", "")
-        return ["quantity", *(f"{field} per {time}" if time and field.startswith("slope") else field for field in self._FIELDS)]
-
-    def _head(self) -> str:
-        span = f"t = {self.t[0]:g} .. {self.t[-1]:g}, {len(self.t)} samples" if len(self.t) else "no samples"
-        error = f", largest error {self.error_max:.3g}" if self.error_max is not None else ""
-        if "reference_ended" in self.summary:
-            error += f", {'errors end early' if error else 'no errors'}: {self.summary['reference_ended']}"
-        ended = self.message or self.summary.get("duration", "")
-        return f"run of {self.system.name} by {self.method.name}: {span}{error}{f'; {ended}' if ended else ''}"
-
-    _FIELDS = ("class", "max", "slope", "slope_low", "slope_high")
-
     def __repr__(self) -> str:
-        rows = self._rows()
-        return self._head() + ("\n" + text_table(self._columns, rows) if rows else "")
+        return text_of(self)
 
     def _repr_html_(self) -> str:
-        rows = self._rows()
-        table = html_table(self._columns, rows) if rows else ""
-        return f"<p>{html.escape(self._head())}</p>{table}{self._picture()}"
-
-    def _picture(self) -> str:
-        """Its drift or its trajectory as SVG; empty where there is nothing to draw, and without matplotlib."""
-        from . import plots
-
-        if len(self.t) < 2:
-            return ""
-        try:
-            return plots.svg(self.plot("drift" if self.invariants else "trajectory"))
-        except ImportError:
-            return ""
+        return html_of(self)
 
     def __getstate__(self) -> dict[str, Any]:
         _ = self.summary

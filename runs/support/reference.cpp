@@ -216,7 +216,7 @@ struct ExactSolution {
 }  // namespace
 
 ReferenceSolution::ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial,
-                                     Quad duration, Series series)
+                                     Quad duration, Certainty certainty)
     : model_(std::move(model)),
       t0_(t0),
       initial_(std::move(initial)),
@@ -228,10 +228,10 @@ ReferenceSolution::ReferenceSolution(std::shared_ptr<const Model> model, Quad t0
     exact_ = std::all_of(end.begin(), end.end(), [](const Quad& x) { return isfinite(x); });
     if (exact_) return;
   }
-  solve(duration, series);
+  solve(duration, certainty);
 }
 
-void ReferenceSolution::solve(Quad duration, Series series) {
+void ReferenceSolution::solve(Quad duration, Certainty certainty) {
   // A little further than asked for, since the times of a run in double are rounded.
   const Quad goal = t0_ + duration + duration / Quad(1000000);
   SeriesOfSolution solution(*model_, order_of_solution, t0_, initial_),
@@ -239,28 +239,30 @@ void ReferenceSolution::solve(Quad duration, Series series) {
   std::vector<Quad> here(initial_.size()), other(initial_.size());
   std::string reason;
   try {
-    if (series == Series::two) reason = check.expand(goal);
+    if (certainty == Certainty::by_two_series) reason = check.expand(goal);
     while (reason.empty() && end_ != goal) {
       if (reason = solution.expand(goal); !reason.empty()) break;
-      while (series == Series::two && reason.empty() && precedes(check.after(), solution.after())) {
+      while (certainty == Certainty::by_two_series && reason.empty() &&
+             precedes(check.after(), solution.after())) {
         check.advance();
         reason = check.expand(goal);
       }
       if (!reason.empty()) break;
-      if (series == Series::two) {
+      Quad off(1);
+      if (certainty == Certainty::by_two_series) {
         solution.evaluate(solution.after(), here);
         check.evaluate(solution.after(), other);
-        const Quad off = solution.distance(here, other);
+        off = solution.distance(here, other);
         if (!(off <= least_agreement)) {
           reason = "series of two orders agree in less than 20 digits from there on";
           break;
         }
-        disagreement_ = std::max(disagreement_, off);
       }
       if ((pieces_.size() + 1) * solution.expansion().coefficients().size() > most_stored_numbers) {
         reason = "its series fill a gigabyte";
         break;
       }
+      disagreement_ = std::max(disagreement_, off);
       pieces_.push_back({solution.time(), solution.expansion().coefficients()});
       solution.advance();
       end_ = solution.time();

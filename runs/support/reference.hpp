@@ -35,9 +35,9 @@ class SolutionEnds : public RunError {
 /// the last step; BudgetSpent where the budget ends. Returns how many kinks of the field the motion meets.
 std::int64_t taylor_flow(const Model& model, Quad t, Quad elapsed, std::vector<Quad>& z);
 
-/// By how many series a solution is found: by two, which show how many digits are right, or by one where it
-/// is a path to look along, in half the time.
-enum class Series { two, one };
+/// Whether a solution is found by two series, which show how many digits are right, or by one where it is a
+/// path to look along, in half the time. Of one series no digit is shown: the kind is "0-digit".
+enum class Certainty { by_two_series, not_shown };
 
 /// The solution of an initial value problem at any time of an interval. A Taylor solution is computed and
 /// kept by the constructor; the object is immutable afterwards, so that threads can share it.
@@ -49,14 +49,14 @@ class ReferenceSolution {
   /// budget of the thread, of which a step of either series spends one. BudgetSpent where that was asked to
   /// stop. A closed form is taken for it where the model has one that is finite at the end.
   ReferenceSolution(std::shared_ptr<const Model> model, Quad t0, std::vector<Quad> initial, Quad duration,
-                    Series series = Series::two);
+                    Certainty certainty = Certainty::by_two_series);
 
   /// Refuses (InputError) a closed form that is beyond doubt, from its value and its rate at the start, not
   /// the solution over such a duration: of a start on the constraints, for others a closed form need not
   /// hold.
   void check_closed_form(Quad duration) const;
 
-  /// "exact" for a closed form; of two Taylor series, in how many digits of each coordinate the two agree,
+  /// "exact" for a closed form; of Taylor series, in how many digits of each coordinate the two agree,
   /// "30-digit" at most and at the time where they agree least. A coordinate counts by the size of the
   /// numbers that its motion is made of.
   [[nodiscard]] std::string kind() const;
@@ -75,7 +75,7 @@ class ReferenceSolution {
     Quad begin;
     std::vector<Quad> coefficients;
   };
-  void solve(Quad duration, Series series);
+  void solve(Quad duration, Certainty certainty);
   // Whether the solution comes to time a before it comes to b.
   [[nodiscard]] bool precedes(Quad a, Quad b) const { return backwards_ ? b < a : a < b; }
 

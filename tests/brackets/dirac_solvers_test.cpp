@@ -5,6 +5,7 @@
 
 #include <numeric>
 
+#include "../built.hpp"
 #include "dirac_instance.hpp"
 #include "modulo_prime.hpp"
 
@@ -106,16 +107,12 @@ void check_all(const DiracInstance<Rational>& exact, const Judge& judge) {
 
 // Judging in exact rationals takes minutes under a sanitizer: every part takes a tenth of its instances
 // there.
-#ifdef __SANITIZE_ADDRESS__
-constexpr unsigned instances = 12;
-#else
-constexpr unsigned instances = 125;
-#endif
+unsigned instances() { return has_address_sanitizer() ? 12 : 125; }
 
 class DiracSolvers : public ::testing::TestWithParam<unsigned> {};
 
 TEST_P(DiracSolvers, AgreeOnRandomInstances) {
-  for (unsigned k = 0; k < instances; ++k) {
+  for (unsigned k = 0; k < instances(); ++k) {
     const unsigned seed = GetParam() * 125 + k;
     SCOPED_TRACE(seed);
     const DiracInstance<Rational> exact = random_instance(seed);

@@ -42,6 +42,13 @@ class Includes(unittest.TestCase):
         self.assertEqual(status, 1)
         self.assertIn("core/linear/lu.hpp does not compile by itself", said)
 
+    def test_what_includes_a_header_that_is_gone_is_compiled(self):
+        self.write("brackets/canonical.hpp", "#pragma once\n#include <pfaff/core/linear/gone.hpp>\n")
+        self.write("listed", "core/linear/gone.hpp\n")
+        status, said = self.check("--changed", self.root / "listed")
+        self.assertEqual(status, 1)
+        self.assertIn("brackets/canonical.hpp does not compile by itself", said)
+
     def test_readers_of_a_header_are_those_that_include_it_or_else_those_of_its_includers(self):
         self.write("core/linear/lu.cpp", "#include <pfaff/core/linear/lu.hpp>\n")
         self.write("brackets/canonical.cpp", "#include <pfaff/brackets/canonical.hpp>\n")
