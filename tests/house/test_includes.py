@@ -24,9 +24,16 @@ class Includes(unittest.TestCase):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
 
-    def check(self, *options):
-        done = subprocess.run([sys.executable, PROJECT / ".ci/includes.py", "--root", self.root, *options],
+    def listed(self, name):
+        self.write("listed", name + "\n")
+        return self.root / "listed"
+
+    def run_on(self, *options):
+        return subprocess.run([sys.executable, PROJECT / ".ci/includes.py", "--root", self.root, *options],
                               capture_output=True, text=True, check=False)
+
+    def check(self, *options):
+        done = self.run_on(*options)
         return done.returncode, done.stderr
 
     def test_what_keeps_the_rules_passes(self):
@@ -34,32 +41,27 @@ class Includes(unittest.TestCase):
 
     def test_only_what_a_change_may_have_broken_is_compiled(self):
         self.write("core/linear/lu.hpp", "#pragma once\n#include <pfaff/core/numbers/real.hpp>\nMatrix lu();\n")
-        self.write("listed", "core/numbers/quad.hpp\n")
         self.write("core/numbers/quad.hpp", "#pragma once\n")
-        self.assertEqual(self.check("--changed", self.root / "listed"), (0, ""))
-        self.write("listed", "core/numbers/real.hpp\n")  # which the broken one includes
-        status, said = self.check("--changed", self.root / "listed")
+        self.assertEqual(self.check("--changed", self.listed("core/numbers/quad.hpp")), (0, ""))
+        status, said = self.check("--changed", self.listed("core/numbers/real.hpp"))  # which the broken one includes
         self.assertEqual(status, 1)
         self.assertIn("core/linear/lu.hpp does not compile by itself", said)
 
     def test_what_includes_a_header_that_is_gone_is_compiled(self):
         self.write("brackets/canonical.hpp", "#pragma once\n#include <pfaff/core/linear/gone.hpp>\n")
-        self.write("listed", "core/linear/gone.hpp\n")
-        status, said = self.check("--changed", self.root / "listed")
+        status, said = self.check("--changed", self.listed("core/linear/gone.hpp"))
         self.assertEqual(status, 1)
         self.assertIn("brackets/canonical.hpp does not compile by itself", said)
 
     def test_readers_of_a_header_are_those_that_include_it_or_else_those_of_its_includers(self):
         self.write("core/linear/lu.cpp", "#include <pfaff/core/linear/lu.hpp>\n")
         self.write("brackets/canonical.cpp", "#include <pfaff/brackets/canonical.hpp>\n")
-        for listed, expected in (("core/linear/lu.hpp", ["core/linear/lu.cpp"]), ("core/numbers/real.hpp", ["core/linear/lu.cpp"]),
+        for name, expected in (("core/linear/lu.hpp", ["core/linear/lu.cpp"]), ("core/numbers/real.hpp", ["core/linear/lu.cpp"]),
                                  ("brackets/canonical.hpp", ["brackets/canonical.cpp"]), ("brackets/canonical.cpp", ["brackets/canonical.cpp"]),
                                  ("README.md", [])):
-            with self.subTest(listed):
-                self.write("listed", listed + "\n")
-                done = subprocess.run([sys.executable, PROJECT / ".ci/includes.py", "--root", self.root, "--readers", self.root / "listed"],
-                                      capture_output=True, text=True, check=True)
-                self.assertEqual(done.stdout.split(), expected)
+            with self.subTest(name):
+                done = self.run_on("--readers", self.listed(name))
+                self.assertEqual((done.returncode, done.stdout.split()), (0, expected))
 
     def test_an_arrow_that_runs_back_is_named(self):
         self.write("core/registry/registry.cpp", "#include <vector>\n#include <pfaff/brackets/canonical.hpp>\n")

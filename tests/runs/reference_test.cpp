@@ -31,6 +31,17 @@ double componentwise_distance(const std::vector<Quad>& a, const std::vector<Quad
   return static_cast<double>(worst);
 }
 
+// One series is the first of the two, and of it no digit is claimed.
+TEST(Reference, OfOneSeriesIsTheSameAndShowsNoDigits) {
+  const auto model = model_named("henon-heiles");
+  const ReferenceSolution two(model, Quad(0), start_of(*model), Quad(5)),
+      one(model, Quad(0), start_of(*model), Quad(5), Certainty::not_shown);
+  EXPECT_EQ(two.kind(), "30-digit");
+  EXPECT_EQ(one.kind(), "0-digit");
+  EXPECT_EQ(one.ended(), "");
+  for (const int t : {1, 3, 5}) EXPECT_EQ(one.at(Quad(t)), two.at(Quad(t)));
+}
+
 // The closed solution is that of ellipses; of other orbits series are taken, of which the energy is asked.
 TEST(Reference, OfAHyperbolaIsASeries) {
   const auto kepler = model_named("kepler");
